@@ -82,18 +82,19 @@ static dem_status check_same(const ranks *r, const dem_model *m)
 
 /* ---- public ---- */
 
-static dem_status find_owners(int32_t **owner, const dem_lattice *whole, int n_ranks)
+/* \param weights  [nodes] NULL: all the same */
+static dem_status find_owners(int32_t **owner, const dem_lattice *whole, const double *weights, int n_ranks)
 {
     *owner = malloc((size_t)whole->n_nodes * sizeof **owner);
     CHECK_MEMORY(*owner);
-    return partition_bisect(whole, n_ranks, *owner);
+    return partition_bisect_weighted(whole, weights, n_ranks, *owner);
 }
 
 /* What a rank does by itself. */
 static dem_status prepare(dem_model **whole, int32_t **owner, const dem_private_whole *of, int n_ranks)
 {
     TRY(dem_model_create(whole, of->lattice, of->obstacles, of->n_obstacles));
-    return find_owners(owner, &(*whole)->lattice, n_ranks);
+    return find_owners(owner, &(*whole)->lattice, of->weights, n_ranks);
 }
 
 static bool may_touch(const dem_model *whole, dem_private_touching touching)
@@ -126,7 +127,7 @@ dem_status shared_model_deal(dem_model **out, const dem_model *whole, const dem_
 {
     int32_t *owner = NULL;
     const bool touching = about->touching == DEM_PRIVATE_TOUCHING_SOME;
-    dem_status status = r->rank == 0 ? find_owners(&owner, &whole->lattice, r->size) : DEM_OK;
+    dem_status status = r->rank == 0 ? find_owners(&owner, &whole->lattice, about->weights, r->size) : DEM_OK;
     status = reduce_status(r, status, 0.0);
     if (status == DEM_OK)
         status = domain_model_deal(out, r, whole, &(domain_model_shares){owner, touching}, about->obstacles,

@@ -20,6 +20,7 @@ typedef struct dem_private_whole {
     const dem_obstacle *obstacles; /* [n_obstacles] */
     dem_index n_obstacles;
     dem_private_touching touching;
+    const double *weights; /* [nodes] >= 0, what they weigh in the partition; NULL: all the same */
 } dem_private_whole;
 
 /** Shares the nodes out among ranks, each of which gets the model of its part. Collective: whatever fails on one rank

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 /* Lengths of messages are of type int: a longer one goes in pieces. */
 enum { MESSAGE_MOST = 1 << 30 };
@@ -17,7 +18,22 @@ typedef struct mpi_ranks {
     MPI_Op op;
     MPI_Datatype packets[RANKS_PACKET_MOST + 1]; /* by size, made when they are needed */
     MPI_Request *requests;                       /* [2 size] */
+    double waited;                               /* s of processor time in MPI, as ranks wait without sleeping */
 } mpi_ranks;
+
+/* ---- time ---- */
+
+/* Of this thread, s. */
+static double processor_time(void)
+{
+    struct timespec t;
+    return clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t) == 0 ? (double)t.tv_sec + 1e-9 * (double)t.tv_nsec : 0.0;
+}
+
+static double work(const void *self)
+{
+    return processor_time() - ((const mpi_ranks *)self)->waited;
+}
 
 /* ---- reductions ---- */
 
@@ -55,7 +71,9 @@ static void reduce(void *self, void *packet, size_t size, ranks_join *join)
     mpi_ranks *m = self;
     current.join = join;
     current.size = size;
+    const double begin = processor_time();
     (void)MPI_Allreduce(MPI_IN_PLACE, packet, 1, packet_of(m, size), m->op, m->communicator);
+    m->waited += processor_time() - begin;
 }
 
 /* ---- messages ---- */
@@ -71,6 +89,7 @@ static int piece_of(const ranks_message *m, size_t from)
 static void exchange(void *self, int n, const ranks_message *sent, const ranks_message *received)
 {
     mpi_ranks *m = self;
+    const double begin = processor_time();
     int n_requests = 1;
     for (size_t from = 0; n_requests > 0; from += MESSAGE_MOST) {
         n_requests = 0;
@@ -84,6 +103,7 @@ static void exchange(void *self, int n, const ranks_message *sent, const ranks_m
                                 m->communicator, &m->requests[n_requests++]);
         (void)MPI_Waitall(n_requests, m->requests, MPI_STATUSES_IGNORE);
     }
+    m->waited += processor_time() - begin;
 }
 
 /* ---- begin and end ---- */
@@ -131,7 +151,8 @@ ranks *mpi_ranks_create(MPI_Comm communicator)
         free(requests);
         return NULL;
     }
-    m->table = (ranks){.self = m, .rank = rank, .size = size, .reduce = reduce, .exchange = exchange, .end = end};
+    m->table = (ranks){
+        .self = m, .rank = rank, .size = size, .reduce = reduce, .exchange = exchange, .work = work, .end = end};
     m->requests = requests;
     begin(m, communicator);
     return &m->table;

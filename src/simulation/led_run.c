@@ -10,6 +10,7 @@
 #include "base/checkpoint_entries.h"
 #include "base/reduce.h"
 #include "base/status.h"
+#include "domain/balance.h"
 #include "domain/gather.h"
 #include "model/shared_model.h"
 #include "simulation/rank_shares.h"
@@ -30,18 +31,32 @@ struct led_run {
     dem_simulation *part;  /* NULL: there is none */
     bool is_observed;
     frame_relay frames[OBSERVERS_MOST];
+    double work, entered;       /* s of work since nodes were shared out, and what the clock of it said in enter() */
+    balance balance;            /* of them. On rank 0: */
+    const dem_options *options; /* of the whole */
+    bool shares_anew;           /* the nodes, from the checkpoint that the run has just taken */
 };
 
-/* ---- a lack of memory ---- */
+/* ---- work of all ranks together ---- */
 
-/* From here to leave() all ranks work together: one that is out of memory cannot report it and go on. */
-static void enter(const led_run *l)
+static double work_clock(const led_run *l)
 {
-    status_watch_memory(l->ranks.lacks_memory, l->ranks.program);
+    return l->ranks.work != NULL ? l->ranks.work(l->ranks.self) : 0.0;
 }
 
-static void leave(void)
+/* From here to leave() all ranks work together: one that is out of memory cannot report it and go on. The time counts
+ * as work. */
+static void enter(led_run *l)
 {
+    status_watch_memory(l->ranks.lacks_memory, l->ranks.program);
+    l->entered = work_clock(l);
+}
+
+static void leave(led_run *l)
+{
+    const double now = work_clock(l);
+    l->work += now - l->entered;
+    l->entered = now;
     status_watch_memory(NULL, NULL);
 }
 
@@ -60,7 +75,8 @@ static dem_status create_part(led_run *l, const shared_problem *p, bool resumes,
 {
     const bool touching = p->options.bodies != DEM_BODIES_NONE;
     const dem_private_whole about = {NULL, p->obstacles, p->n_obstacles,
-                                     touching ? DEM_PRIVATE_TOUCHING_SOME : DEM_PRIVATE_TOUCHING_NONE};
+                                     touching ? DEM_PRIVATE_TOUCHING_SOME : DEM_PRIVATE_TOUCHING_NONE,
+                                     l->balance.weights};
     TRY(shared_model_deal(&l->model, l->whole != NULL ? l->whole->model : NULL, &about, &l->ranks));
     if (resumes)
         TRY(dem_simulation_resume(&l->part, l->model, &p->options, checkpoint));
@@ -79,10 +95,20 @@ static dem_status create(led_run *l, dem_checkpoint *entries, bool resumes, cons
     dem_status status = checkpoint_entries_share(&l->ranks, entries, entries);
     if (status == DEM_OK) status = reduce_status(&l->ranks, shared_problem_get(&p, entries), 0.0);
     if (status == DEM_OK) status = create_part(l, &p, resumes, checkpoint);
-    leave();
+    leave(l);
     shared_problem_free(&p);
     if (status != DEM_OK) drop(l);
+    balance_begin(&l->balance, l->work);
+    l->work = 0.0;
     return status;
+}
+
+/* Tells rank 0 how long all have worked since nodes were shared out.  \return false if nobody knows */
+static bool collect_work(led_run *l)
+{
+    if (l->ranks.work == NULL) return false;
+    balance_collect(&l->balance, &l->ranks, l->work + work_clock(l) - l->entered);
+    return true;
 }
 
 /* ---- the leader's observers ---- */
@@ -99,14 +125,14 @@ static void show(const led_run *l)
 }
 
 /* Rank 0 is by itself while it calls its observers. */
-static const led_run *hold(const led_run *l)
+static led_run *hold(led_run *l)
 {
-    leave();
+    leave(l);
     show(l);
     return l;
 }
 
-static dem_status release(const led_run *l, dem_status status)
+static dem_status release(led_run *l, dem_status status)
 {
     (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_GO_ON, .number = (dem_index)status});
     enter(l);
@@ -115,14 +141,14 @@ static dem_status release(const led_run *l, dem_status status)
 
 static dem_status lead_step(void *context, const dem_simulation *part)
 {
-    const led_run *l = hold(context);
+    led_run *l = hold(context);
     (void)part;
     return release(l, observers_step(&l->whole->observers, l->whole));
 }
 
 static dem_status lead_event(void *context, const dem_simulation *part, const dem_event *event)
 {
-    const led_run *l = hold(context);
+    led_run *l = hold(context);
     (void)part;
     return release(l, observers_event(&l->whole->observers, l->whole, event));
 }
@@ -130,7 +156,7 @@ static dem_status lead_event(void *context, const dem_simulation *part, const de
 static dem_status lead_frame(void *context, const dem_simulation *part)
 {
     const frame_relay *f = context;
-    const led_run *l = hold(f->run);
+    led_run *l = hold(f->run);
     (void)part;
     return release(l, observers_frame(&l->whole->observers, f->observer, l->whole));
 }
@@ -145,11 +171,17 @@ static dem_status take_checkpoint(dem_simulation *whole, const dem_checkpoint *f
     return observers_checkpoint(&whole->observers, whole, whole->checkpoint);
 }
 
+/* A part goes on from a checkpoint as one does that begins there: so nodes may be shared out anew, for which the
+ * advance of all parts stops. */
 static dem_status lead_checkpoint(void *context, const dem_simulation *part, dem_checkpoint *checkpoint)
 {
-    const led_run *l = hold(context);
+    led_run *l = context;
+    const bool pays = collect_work(l) && balance_pays(&l->balance);
     (void)part;
-    return release(l, take_checkpoint(l->whole, checkpoint));
+    (void)hold(l);
+    const dem_status status = take_checkpoint(l->whole, checkpoint);
+    l->shares_anew = status == DEM_OK && pays;
+    return release(l, l->shares_anew ? DEM_STOPPED : status);
 }
 
 /* ---- followers ---- */
@@ -159,6 +191,7 @@ static rank_call serve(led_run *l);
 /* An observer of the leader's, seen from a follower. */
 static dem_status follow_observer(led_run *l)
 {
+    leave(l);
     const rank_call last = serve(l);
     enter(l);
     return last.number == DEM_OK ? DEM_OK : status_repeat((dem_status)last.number, "rank 0 has ended the run");
@@ -187,6 +220,7 @@ static dem_status follow_checkpoint(void *context, const dem_simulation *part, d
 {
     (void)part;
     (void)checkpoint;
+    (void)collect_work(context);
     return follow_observer(context);
 }
 
@@ -266,7 +300,7 @@ static void take_part(led_run *l, const rank_call *o)
         (void)rank_call_answer(l->part, o, &ignored);
         break;
     }
-    leave();
+    leave(l);
 }
 
 /* Takes calls until one lets this rank go on, or ends its work. */
@@ -290,29 +324,17 @@ static dem_status attach(led_run *l)
     o = rank_call_send(&l->ranks, o);
     enter(l);
     const dem_status status = observe(l, &o);
-    leave();
-    return status;
-}
-
-dem_status led_run_advance(dem_simulation *whole, double t_end)
-{
-    led_run *l = whole->leads;
-    if (!l->is_observed) TRY(attach(l));
-    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_ADVANCE, .t = t_end});
-    enter(l);
-    const dem_status status = dem_simulation_advance(l->part, t_end);
-    leave();
-    show(l);
+    leave(l);
     return status;
 }
 
 dem_status led_run_ask(const dem_simulation *whole, rank_call_kind what, dem_index number, void *out)
 {
-    const led_run *l = whole->leads;
+    led_run *l = whole->leads;
     const rank_call o = rank_call_send(&l->ranks, (rank_call){.kind = what, .number = number});
     enter(l);
     const dem_status status = rank_call_answer(l->part, &o, out);
-    leave();
+    leave(l);
     return status;
 }
 
@@ -338,11 +360,11 @@ dem_status led_run_spread(const dem_simulation *whole, led_run_getter *get, int 
 
 void led_run_gather(dem_simulation *whole)
 {
-    const led_run *l = whole->leads;
+    led_run *l = whole->leads;
     (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_GATHER});
     enter(l);
     (void)gather(l);
-    leave();
+    leave(l);
 }
 
 void led_run_look_for_overlaps(dem_simulation *part)
@@ -355,45 +377,92 @@ void led_run_look_for_overlaps(dem_simulation *part)
     overlap_look(&whole->overlap, &whole->model->lattice, part->t, x);
 }
 
-void led_run_destroy(led_run *l)
+static dem_status begin_parts(led_run *l, dem_checkpoint *entries, const dem_checkpoint *checkpoint)
 {
-    if (l == NULL) return;
-    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_DROP});
-    drop(l);
-    free(l);
-}
-
-static dem_status lead(led_run *l, dem_checkpoint *entries, const dem_options *options,
-                       const dem_checkpoint *checkpoint)
-{
-    /* Whose address means nothing to the others. */
-    CHECK(!l->whole->model->obstacles.is_asked, DEM_ERROR_MODEL,
-          "rank 0 cannot lead a run with obstacles whose motion a function computes");
-    TRY(shared_problem_put(entries, l->whole->model, options));
+    TRY(shared_problem_put(entries, l->whole->model, l->options));
     (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_CREATE, .number = checkpoint != NULL});
     TRY(reduce_status(&l->ranks, DEM_OK, 0.0));
     return create(l, entries, checkpoint != NULL, checkpoint);
 }
 
+static dem_status begin(led_run *l, const dem_checkpoint *checkpoint)
+{
+    dem_checkpoint *entries = NULL;
+    dem_status status = dem_checkpoint_create(&entries);
+    if (status == DEM_OK) status = begin_parts(l, entries, checkpoint);
+    dem_checkpoint_destroy(entries);
+    return status;
+}
+
+static dem_status share_anew(led_run *l)
+{
+    l->shares_anew = false;
+    TRY(balance_weigh(&l->balance, &l->whole->model->lattice));
+    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_DROP});
+    drop(l);
+    return begin(l, l->whole->checkpoint);
+}
+
+static dem_status advance_parts(led_run *l, double t_end)
+{
+    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_ADVANCE, .t = t_end});
+    enter(l);
+    const dem_status status = dem_simulation_advance(l->part, t_end);
+    leave(l);
+    show(l);
+    return status;
+}
+
+dem_status led_run_advance(dem_simulation *whole, double t_end)
+{
+    led_run *l = whole->leads;
+    for (;;) {
+        if (!l->is_observed) TRY(attach(l));
+        const dem_status status = advance_parts(l, t_end);
+        if (!l->shares_anew) return status;
+        TRY(share_anew(l));
+    }
+}
+
+static void free_run(led_run *l)
+{
+    balance_free(&l->balance);
+    free(l);
+}
+
+static dem_status lead(led_run *l, const dem_checkpoint *checkpoint)
+{
+    /* Whose address means nothing to the others. */
+    CHECK(!l->whole->model->obstacles.is_asked, DEM_ERROR_MODEL,
+          "rank 0 cannot lead a run with obstacles whose motion a function computes");
+    TRY(balance_create(&l->balance, l->ranks.size));
+    return begin(l, checkpoint);
+}
+
+void led_run_destroy(led_run *l)
+{
+    if (l == NULL) return;
+    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_DROP});
+    drop(l);
+    free_run(l);
+}
+
 dem_status dem_private_lead(dem_simulation *whole, const ranks *r, const dem_options *options,
                             const dem_checkpoint *checkpoint)
 {
-    dem_checkpoint *entries = NULL;
     led_run *l = calloc(1, sizeof *l);
     CHECK_MEMORY(l);
-    *l = (led_run){.ranks = *r, .whole = whole};
+    *l = (led_run){.ranks = *r, .whole = whole, .options = options};
     l->ranks.end = NULL;
     step_parts_destroy(whole); /* before there is memory for parts */
-    dem_status status = dem_checkpoint_create(&entries);
-    if (status == DEM_OK) status = lead(l, entries, options, checkpoint);
-    dem_checkpoint_destroy(entries);
-    if (status == DEM_OK) {
-        whole->leads = l;
-        show(l);
-    } else {
-        free(l);
+    const dem_status status = lead(l, checkpoint);
+    if (status != DEM_OK) {
+        free_run(l);
+        return status;
     }
-    return status;
+    whole->leads = l;
+    show(l);
+    return DEM_OK;
 }
 
 void dem_private_shares(const dem_simulation *whole, double *least, double *most)

@@ -11,7 +11,7 @@
 /** Makes a simulation that has not been advanced the leader of one that all ranks have a part of. On rank 0, while the
  *  others are in dem_private_follow(). No program may call this.
  *  \param r           outlives the simulation
- *  \param options     with which the simulation was created
+ *  \param options     with which the simulation was created; outlive it, with what they refer to
  *  \param checkpoint  from which it was resumed; NULL: it was not
  *  \return as domain_model_create() and dem_simulation_create(); then it leads nobody, and has to be destroyed, as what
  *  it would have been advanced with is gone (simulation/step_parts.h). Likewise after DEM_ERROR_MODEL, where a function

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* led_run.c: nodes that are shared out anew, as ranks say that they work for different times, change no bit of what is
+ * seen, and frames, steps and checkpoints come as in a run of one process. */
+#include "harness/rank_threads.h"
+#include "simulation/led_run.h"
+#include "unit/simulation/runs.h"
+
+#include <stdio.h>
+
+enum { N_RANKS = 3, MOST_FRAMES = 64, TEXT = 256 };
+
+typedef struct watched {
+    const dem_model *model;
+    dem_options options;
+    dem_index n_nodes, n_own; /* of the whole, and of the part of rank 0 at the end */
+    int n_frames, n_checkpoints, n_steps;
+    double *frames;     /* [MOST_FRAMES][2 n_nodes] positions */
+    char failure[TEXT]; /* empty: none */
+} watched;
+
+static dem_status note_frame(void *context, const dem_simulation *s)
+{
+    watched *w = context;
+    dem_state state = {.struct_size = sizeof state};
+    const dem_status status = dem_simulation_state(s, &state);
+    if (status == DEM_OK && w->n_frames < MOST_FRAMES)
+        memcpy(w->frames + 2 * w->n_nodes * w->n_frames++, state.x, 2 * (size_t)w->n_nodes * sizeof *state.x);
+    return status;
+}
+
+static dem_status count_step(void *context, const dem_simulation *s)
+{
+    (void)s;
+    ((watched *)context)->n_steps++;
+    return DEM_OK;
+}
+
+static dem_status count_checkpoint(void *context, const dem_simulation *s, dem_checkpoint *checkpoint)
+{
+    (void)s;
+    (void)checkpoint;
+    ((watched *)context)->n_checkpoints++;
+    return DEM_OK;
+}
+
+static dem_index count_own(const dem_simulation *part)
+{
+    const domain *d = part->model->domain;
+    dem_index n = 0;
+    for (dem_index i = 0; i < d->n_nodes; i++) n += d->is_own[i];
+    return n;
+}
+
+/* \param leads  ranks that make the run; NULL: this process alone does */
+static dem_status watch(watched *w, const ranks *leads)
+{
+    dem_simulation *s = NULL;
+    const dem_observer observer = SIZED(dem_observer, .context = w, .interval = 2.5e-4, .frame = note_frame,
+                                        .step = count_step, .checkpoint = count_checkpoint);
+    dem_status status = dem_simulation_create(&s, w->model, &w->options);
+    if (status == DEM_OK && leads != NULL) status = dem_private_lead(s, leads, &w->options, NULL);
+    if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
+    if (status == DEM_OK) status = dem_simulation_advance(s, 0.5 * t_whole);
+    if (status == DEM_OK) status = dem_simulation_advance(s, t_whole);
+    if (status == DEM_OK) status = note_frame(w, s);
+    if (status == DEM_OK && leads != NULL) w->n_own = count_own(led_run_part(s->leads));
+    dem_simulation_destroy(s);
+    return status;
+}
+
+static void watch_as_rank(const ranks *r, void *context)
+{
+    watched *w = context;
+    if (r->rank > 0) {
+        (void)dem_private_follow(r);
+        return;
+    }
+    if (watch(w, r) != DEM_OK) (void)snprintf(w->failure, TEXT, "%s", dem_status_message());
+    dem_private_dismiss(r, 0);
+}
+
+static watched begin_watch(const dem_model *model)
+{
+    watched w = {.model = model, .options = dem_options_default(), .n_nodes = dem_model_lattice(model)->n_nodes};
+    w.options.checkpoint_steps = 8;
+    w.frames = calloc((size_t)(2 * MOST_FRAMES * w.n_nodes), sizeof *w.frames);
+    return w;
+}
+
+/* \param seconds  of work for each call, of each rank; NULL: nobody knows
+ * \return how many nodes rank 0 has at the end */
+static dem_index lead(const watched *whole, const double *seconds)
+{
+    watched led = begin_watch(whole->model);
+    rank_threads_pretend(seconds);
+    rank_threads_run(N_RANKS, watch_as_rank, &led);
+    rank_threads_pretend(NULL);
+    assert_string_equal(led.failure, "");
+    assert_int_equal(led.n_steps, whole->n_steps);
+    assert_int_equal(led.n_frames, whole->n_frames);
+    assert_int_equal(led.n_checkpoints, whole->n_checkpoints);
+    assert_memory_equal(led.frames, whole->frames, (size_t)(2 * led.n_nodes * led.n_frames) * sizeof *led.frames);
+    free(led.frames);
+    return led.n_own;
+}
+
+TEST(nodes_that_are_shared_out_anew_change_no_bit)
+{
+    static const double slow_0[N_RANKS] = {3.0, 1.0, 1.0}, slow_2[N_RANKS] = {1.0, 1.0, 3.0},
+                        alike[N_RANKS] = {1.0, 1.0, 1.0};
+    dem_model *model = make_falling(0.5);
+    watched whole = begin_watch(model);
+    assert_ok(watch(&whole, NULL));
+    assert_true(whole.n_checkpoints > 3 && whole.n_frames > 10 && whole.n_frames < MOST_FRAMES);
+    const dem_index n = lead(&whole, NULL);
+    assert_int_equal(n, whole.n_nodes / N_RANKS);
+    assert_int_equal(lead(&whole, alike), n);
+    assert_true(lead(&whole, slow_0) < n);
+    assert_true(lead(&whole, slow_2) > n);
+    free(whole.frames);
+    dem_model_destroy(model);
+}
+
+int main(void)
+{
+    return test_run();
+}
