@@ -80,7 +80,8 @@ class dem_observer(Sized):
     _fields_ = [("struct_size", c_size_t), ("interval", c_double), ("frame", seen), ("step", seen),
                 ("event", ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p)),
                 ("checkpoint", ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p)), ("context", c_void_p),
-                ("broken", ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p))]
+                ("broken", ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p)), ("step_every", c_int64),
+                ("step_interval", c_double), ("step_touching", c_int64)]
 
 
 dem = ctypes.CDLL("libdem.so.2")

@@ -41,6 +41,15 @@ typedef struct dem_observer {
     dem_status (*broken)(void *context, const dem_simulation *simulation, const dem_break *what);
     /**< after every break, in the order of time with contact events; the simulation shows the state of that instant.
      *   What dem_simulation_break() has broken is reported at the start of the next advance */
+    dem_index step_every; /**< > 0: `step` is called after accepted steps whose number since the start of the run is a
+                               multiple of this, and at t = 0 */
+    double step_interval; /**< s, > 0: and after the first accepted step at or behind each multiple of this. Where both
+                               are 0 it is called after every accepted step. Between calls the run may take steps that
+                               nobody sees, which take less time; its results have the same bits */
+    dem_index step_touching; /**< not 0: besides after every accepted step in which something touches: in which contacts
+                               with obstacles change, or at whose end one is closed or surfaces of bodies push each
+                               other. And before the contact events of a step with the state from which it goes, unless
+                               that has been shown. If an MPI rank leads the run, after every step */
 } dem_observer;
 
 /** Copies `observer`. At most 8; to be called before the first advance. One of a resumed simulation is shown the frames

@@ -763,10 +763,20 @@ class dem_observer(SizedStructure):
     DEM_OK ends the advance and is returned by it.
     struct_size: to be set to sizeof(dem_observer)
     interval: s between frames, the first at t = 0; <= 0: no frames
-    context: after every accepted step and at t = 0"""
+    context: after every accepted step and at t = 0
+    step_every: > 0: `step` is called after accepted steps whose number since the start of the run is a multiple of
+        this, and at t = 0
+    step_interval: s, > 0: and after the first accepted step at or behind each multiple of this. Where both are 0 it is
+        called after every accepted step. Between calls the run may take steps that nobody sees, which take less time;
+        its results have the same bits
+    step_touching: not 0: besides after every accepted step in which something touches: in which contacts with obstacles
+        change, or at whose end one is closed or surfaces of bodies push each other. And before the contact events of a
+        step with the state from which it goes, unless that has been shown. If an MPI rank leads the run, after every
+        step"""
     _fields_ = [("struct_size", c_size_t), ("interval", c_double), ("frame", dem_observer_frame),
                 ("step", dem_observer_step), ("event", dem_observer_event), ("checkpoint", dem_observer_checkpoint),
-                ("context", c_void_p), ("broken", dem_observer_broken)]
+                ("context", c_void_p), ("broken", dem_observer_broken), ("step_every", c_int64),
+                ("step_interval", c_double), ("step_touching", c_int64)]
 
 
 class dem_node_peak(Structure):

@@ -160,11 +160,16 @@ class Simulation:
     def observe(self, frame: Callable[[Simulation], int | None] | None = None,
                 step: Callable[[Simulation], int | None] | None = None,
                 event: Callable[[Simulation, records.Event], int | None] | None = None,
-                broken: Callable[[Simulation, records.Break], int | None] | None = None, interval: float = 0.0) -> None:
+                broken: Callable[[Simulation, records.Break], int | None] | None = None, interval: float = 0.0,
+                step_every: int = 0, step_interval: float = 0.0, step_touching: bool = False) -> None:
         """Calls frame(simulation) every `interval` seconds of the motion, step(simulation) after every step,
         event(simulation, event) at every change of a contact, and broken(simulation, what) at every break. Each may
-        return dem.STOP. Before the first advance."""
-        observer, wrap = c.dem_observer(interval=interval), self._callbacks.wrap
+        return dem.STOP. Before the first advance.
+        step_every: step() only after steps whose number is a multiple of this, and at t = 0; step_interval (s): and
+        after the first step in each such span of time; step_touching: and after every step in which something
+        touches"""
+        observer, wrap = c.dem_observer(interval=interval, step_every=step_every, step_interval=step_interval,
+                                        step_touching=step_touching), self._callbacks.wrap
         if frame is not None:
             observer.frame = wrap(c.dem_observer_frame, lambda _: frame(self))
         if step is not None:

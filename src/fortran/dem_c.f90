@@ -996,11 +996,14 @@ module dem_c
   end type
 
   type, bind(c) :: dem_observer
-    integer(c_size_t) :: struct_size = 64
+    integer(c_size_t) :: struct_size = 88
     real(c_double) :: interval = 0
     type(c_funptr) :: frame = c_null_funptr, step = c_null_funptr, event = c_null_funptr, checkpoint = c_null_funptr
     type(c_ptr) :: context = c_null_ptr
     type(c_funptr) :: broken = c_null_funptr
+    integer(dem_index) :: step_every = 0
+    real(c_double) :: step_interval = 0
+    integer(dem_index) :: step_touching = 0
   end type
 
   type, bind(c) :: dem_node_peak

@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "base/status.h"
+#include "base/time_window.h"
 
 /* RUN has one item in a row, the others as many as table.count says, in this order. */
 enum { RUN, BODIES, OBSTACLES, BOUNDARIES }; /* what a column is about */
@@ -211,7 +212,7 @@ void history_free(history *h)
  * follows from the last row alone, so that a resumed run has the same rows. */
 bool dem_history_row_due(double interval, double before, double t)
 {
-    return t != before && !(interval > 0.0 && floor(t / interval) <= floor(before / interval));
+    return t != before && (!(interval > 0.0) || time_window_begins(interval, before, t));
 }
 
 dem_status history_record(history *h, const dem_simulation *simulation)

@@ -9,6 +9,7 @@
 
 #include "base/status.h"
 #include "base/struct_size.h"
+#include "base/time_window.h"
 
 static const double most_frames = 4503599627370496.0; /* 2^52: numbers beyond may not differ from the next */
 
@@ -31,10 +32,13 @@ dem_status observers_add(observers *a, const dem_observer *observer, double show
     TRY(struct_size_read(&kind, &own, observer));
     const double interval = own.interval;
     CHECK(isfinite(interval), DEM_ERROR_ARGUMENT, "the interval between frames is %g s", interval);
+    CHECK(own.step_every >= 0 && isfinite(own.step_interval) && own.step_interval >= 0.0, DEM_ERROR_ARGUMENT,
+          "steps are to be seen every %lld of them and every %g s; both must be 0 or more", (long long)own.step_every,
+          own.step_interval);
     CHECK(!(interval > 0.0) || shown_until < most_frames * interval, DEM_ERROR_ARGUMENT,
           "frames %g s apart cannot be numbered at %g s", interval, shown_until);
     CHECK(a->n < OBSERVERS_MOST, DEM_ERROR_ARGUMENT, "at most %d observers", (int)OBSERVERS_MOST);
-    a->members[a->n++] = (observer_entry){own, frame_after(interval, shown_until)};
+    a->members[a->n++] = (observer_entry){own, frame_after(interval, shown_until), shown_until, -1};
     return DEM_OK;
 }
 
@@ -55,10 +59,36 @@ dem_status observers_event(const observers *a, const dem_simulation *simulation,
     return status;
 }
 
-bool observers_want_steps(const observers *a)
+/* Whether an observer sees every step. */
+static bool sees_all(const dem_observer *o)
+{
+    return o->step_every == 0 && o->step_interval == 0.0;
+}
+
+bool observers_want_touching(const observers *a)
+{
+    for (int k = 0; k < a->n; k++) {
+        const dem_observer *o = &a->members[k].observer;
+        if (o->step != NULL && o->step_touching != 0 && !sees_all(o)) return true;
+    }
+    return false;
+}
+
+/* The step that it has seen last is in the same span of time as the step before this one. */
+static bool is_due(const observer_entry *e, const accepted_step *step)
+{
+    const dem_observer *o = &e->observer;
+    if (o->step == NULL) return false;
+    if (sees_all(o) || (step->touches && o->step_touching != 0)) return true;
+    if (o->step_every > 0 && step->number % o->step_every == 0) return true;
+    const double before = e->seen_until < 0.0 ? -(double)INFINITY : e->seen_until;
+    return o->step_interval > 0.0 && time_window_begins(o->step_interval, before, step->t);
+}
+
+bool observers_step_due(const observers *a, const accepted_step *step)
 {
     for (int k = 0; k < a->n; k++)
-        if (a->members[k].observer.step != NULL) return true;
+        if (is_due(&a->members[k], step)) return true;
     return false;
 }
 
@@ -79,12 +109,29 @@ dem_status observers_broken(const observers *a, const dem_simulation *simulation
     return status;
 }
 
-dem_status observers_step(const observers *a, const dem_simulation *simulation)
+static dem_status show(observer_entry *e, const dem_simulation *simulation, const accepted_step *step)
+{
+    e->seen_until = step->t;
+    e->seen = step->number;
+    return e->observer.step(e->observer.context, simulation);
+}
+
+dem_status observers_step(observers *a, const dem_simulation *simulation, const accepted_step *step)
+{
+    dem_status status = DEM_OK;
+    for (int k = 0; k < a->n; k++)
+        if (is_due(&a->members[k], step)) status = status_first(status, show(&a->members[k], simulation, step));
+    return status;
+}
+
+dem_status observers_before_touching(observers *a, const dem_simulation *simulation, const accepted_step *step)
 {
     dem_status status = DEM_OK;
     for (int k = 0; k < a->n; k++) {
-        const dem_observer *o = &a->members[k].observer;
-        if (o->step != NULL) status = status_first(status, o->step(o->context, simulation));
+        observer_entry *e = &a->members[k];
+        const dem_observer *o = &e->observer;
+        if (o->step != NULL && o->step_touching != 0 && e->seen != step->number)
+            status = status_first(status, show(e, simulation, step));
     }
     return status;
 }

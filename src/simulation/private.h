@@ -156,6 +156,12 @@ static inline dem_status run_force_failure(const dem_simulation *s)
     return external_force_failed(s->external) ? external_force_failure(s->external) : of_motion;
 }
 
+/* Accepted steps since the start of the run, with the one in hand. */
+static inline dem_index run_count_steps(const dem_simulation *s)
+{
+    return integrator_counts(&s->integrator).steps;
+}
+
 /* Whether elements break by themselves. */
 static inline bool run_may_break(const dem_simulation *s)
 {

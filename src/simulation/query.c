@@ -399,14 +399,19 @@ dem_status dem_simulation_overlap(const dem_simulation *s, dem_overlap *out)
     return GIVE(dem_overlap, out, &s->overlap.found);
 }
 
+const dem_surfaces *query_surfaces(const dem_simulation *s)
+{
+    run_measures *m = s->measures;
+    if (!m->has_surfaces) m->surfaces = body_contact_surfaces(s, s->surfaces != NULL ? seen_of(s) : NULL);
+    m->has_surfaces = true;
+    return &m->surfaces;
+}
+
 dem_status dem_simulation_surfaces(const dem_simulation *s, dem_surfaces *out)
 {
     TRY(check_pointers("dem_simulation_surfaces", s, out));
     if (s->leads != NULL) return dem_simulation_surfaces(led_run_part(s->leads), out);
-    run_measures *m = s->measures;
-    if (!m->has_surfaces) m->surfaces = body_contact_surfaces(s, s->surfaces != NULL ? seen_of(s) : NULL);
-    m->has_surfaces = true;
-    return GIVE(dem_surfaces, out, &m->surfaces);
+    return GIVE(dem_surfaces, out, query_surfaces(s));
 }
 
 /* They are listed when the first of them is asked for. */

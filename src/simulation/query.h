@@ -19,6 +19,9 @@ dem_status query_ask(dem_simulation *s);
 /** The same of the motions of obstacles alone. */
 void query_ask_poses(dem_simulation *s);
 
+/** dem_simulation_surfaces() of a run that no rank leads. */
+const dem_surfaces *query_surfaces(const dem_simulation *s);
+
 /** dem_simulation_residual() of the state after the last step, whatever is seen. */
 double query_residual(const dem_simulation *s);
 

@@ -142,14 +142,39 @@ static dem_status take_stop(dem_simulation *s)
     return reduce_status(s->model->ranks, own, 0.0);
 }
 
-/* Every accepted step, after its contacts have changed. */
+/* Whether contacts with obstacles have changed in the step that was taken last. */
+static bool has_contact_events(const dem_simulation *s)
+{
+    return s->n_inside > 0 || s->at_event;
+}
+
+/* Whether something has touched in that step, of which the end is seen now. Of rigid bodies that is not asked. */
+static bool touches(const dem_simulation *s)
+{
+    if (has_contact_events(s) || s->automaton.set.forces.n_groups > 0 || s->rigid != NULL) return true;
+    return s->surfaces != NULL && query_surfaces(s)->pushing > 0;
+}
+
+/* Every accepted step, after its contacts have changed, or the last of those that were taken at once. */
 static dem_status report_step(dem_simulation *s)
 {
     TRY(show_state(s));
-    const dem_status status = observers_step(&s->observers, s);
+    const accepted_step step = {run_count_steps(s), s->t, observers_want_touching(&s->observers) && touches(s)};
+    const dem_status status = observers_step(&s->observers, s, &step);
     if (!run_is_shared(s) || s->is_led) return status; /* which all ranks have alike */
     note_stop(&s->stop, status);
     return DEM_OK;
+}
+
+/* Shows the state from which the step in hand goes, if contacts change in it. That step has been counted already. */
+static dem_status report_before_touching(dem_simulation *s)
+{
+    const accepted_step before = {run_count_steps(s) - 1, s->t, false};
+    if (!has_contact_events(s) || !observers_want_touching(&s->observers)) return DEM_OK;
+    query_at(s, s->t, s->y);
+    s->measures->has_events = !run_is_local(s);
+    TRY(query_ask(s));
+    return reduce_status(s->model->ranks, observers_before_touching(&s->observers, s, &before), 0.0);
 }
 
 /* Shows the frames up to the end of the step and t_end in the order of time; events before a frame come before it. */
@@ -457,14 +482,16 @@ static dem_status take_checkpoint(dem_simulation *s)
 }
 
 /* Takes several steps at once, between which nobody looks at anything, if there are as many before the next checkpoint,
- * frame, look, or t_end.  \return whether it has */
+ * frame, look, or t_end. Nothing has touched in them.  \return whether it has */
 static bool take_unseen(dem_simulation *s, double t_end)
 {
     const dem_index every = s->options.checkpoint_steps,
                     left = every > 0 ? every - s->since_checkpoint : left_to_look(s);
     const int n = unseen_steps_take(s, left < left_to_look(s) ? (int)left : left_to_look(s), t_end);
-    if (n > 0) count_steps(s, n);
-    return n > 0;
+    if (n == 0) return false;
+    s->n_inside = s->n_reported = 0;
+    count_steps(s, n);
+    return true;
 }
 
 /* Steps until t_end falls into the step in hand; then shows the state there. The next advance may find the step in
@@ -475,11 +502,13 @@ static dem_status advance(dem_simulation *s, double t_end)
     for (;;) {
         if (!s->in_hand && wants_checkpoint(s)) TRY(take_checkpoint(s));
         if (!s->in_hand && take_unseen(s, t_end)) {
-            TRY(show_state(s));
+            TRY(report_step(s));
             continue;
         }
-        const dem_status taken = s->in_hand ? DEM_OK : take_step(s);
+        const bool fresh = !s->in_hand;
+        const dem_status taken = fresh ? take_step(s) : DEM_OK;
         TRY(status_first(take_stop(s), taken));
+        if (fresh) TRY(stop_if_force_failed(s, report_before_touching(s)));
         TRY(stop_if_force_failed(s, report_frames(s, t_end)));
         if (t_end < s->path.end) break;
         TRY(commit_step(s));

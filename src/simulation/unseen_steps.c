@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Whatever could make a difference keeps steps single: observers of steps, forces that depend on more than the
+/* Whatever could make a difference keeps steps single: observers of each step, forces that depend on more than the
  * positions of neighbours, contacts closed or near, surfaces of bodies that may touch each other, elements that may
  * break or have done so. If it turns out afterwards that the guard acts or something came near, they are taken once
  * more, one by one. */
@@ -49,13 +49,17 @@ void unseen_steps_destroy(dem_simulation *s)
     s->unseen = (run_unseen){0};
 }
 
-/* How many steps end before t_end and before the next frame; `most` if there are more. */
+/* How many steps end before t_end and before the next frame, up to the first whose end is seen; `most` if there are
+ * more. */
 static int count_free(const dem_simulation *s, int most, double t_end)
 {
-    double t = s->t, due;
+    accepted_step step = {run_count_steps(s), s->t, false};
+    double due;
     for (int n = 0; n < most; n++) {
-        t += s->options.fixed_step;
-        if (t > t_end || observers_due(&s->observers, t, t_end, &due) >= 0) return n;
+        step.number++;
+        step.t += s->options.fixed_step;
+        if (step.t > t_end || observers_due(&s->observers, step.t, t_end, &due) >= 0) return n;
+        if (observers_step_due(&s->observers, &step)) return n + 1;
     }
     return most;
 }
@@ -77,7 +81,7 @@ static bool is_waiting(run_unseen *u)
 int unseen_steps_take(dem_simulation *s, int most, double t_end)
 {
     run_unseen *u = &s->unseen;
-    if (u->wave == NULL || observers_want_steps(&s->observers) || s->forces.elements != NULL) return 0;
+    if (u->wave == NULL || s->forces.elements != NULL) return 0;
     const int n = count_free(s, most < ODE_FUSED_STEPS ? most : ODE_FUSED_STEPS, t_end);
     if (n < FEWEST || !automaton_may_fly(&s->automaton, n * s->options.fixed_step)) return 0;
     if (is_waiting(u)) return 0;

@@ -37,7 +37,7 @@ program calls
   real(c_double), parameter :: t = 0.1d0
   type(dem_lattice) :: lattice
   type(c_ptr) :: model, simulation
-  type(tally), target :: seen
+  type(tally), target :: seen, seen_rarely
   integer :: faults = 0
 
   call strings()
@@ -204,6 +204,9 @@ contains
     observer%context = c_loc(seen)
     call succeed(dem_simulation_create(simulation, model, options))
     call succeed(dem_simulation_observe(simulation, observer))
+    observer%step_every = 5
+    observer%context = c_loc(seen_rarely)
+    call succeed(dem_simulation_observe(simulation, observer))
     call succeed(dem_simulation_advance(simulation, t))
     call succeed(dem_simulation_state(simulation, state))
     call succeed(dem_simulation_body(simulation, 0_dem_index, motion))
@@ -214,6 +217,7 @@ contains
     call expect(abs(motion%velocity(2) + 9.81d0 * t) < 1d-9, 'its mean motion')
     call expect(maxval(abs(stress)) < 1d-9 * rubber%youngs_modulus, 'no stress')
     call expect(seen%steps > 1 .and. abs(seen%ledger(2) - seen%ledger(1)) < 1d-6 * abs(seen%ledger(1)), 'the ledger')
+    call expect(seen_rarely%steps == (seen%steps - 1)/5 + 1, 'every fifth step')
   end subroutine
 
   subroutine checkpoints()

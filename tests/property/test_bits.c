@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A run is the same to the last bit whoever watches it: random bodies alone, again, with 2 and 3 threads, cut into
- * parts, and with observers that ask for everything at events, frames and steps, or for nothing. `test_bits [CASES
- * [FIRST_SEED]]`. */
+ * parts, and with observers that ask for everything at events, frames, steps and some of them, or for
+ * nothing. `test_bits [CASES [FIRST_SEED]]`. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -89,6 +89,7 @@ static const dem_observer observers[] = {
     {.struct_size = sizeof(dem_observer), .interval = 3e-6, .frame = ask},
     {.struct_size = sizeof(dem_observer), .interval = 0.0, .event = ask_at_event},
     {.struct_size = sizeof(dem_observer), .interval = 7e-6, .frame = ask, .step = ask, .event = ask_at_event},
+    {.struct_size = sizeof(dem_observer), .step = ask, .step_every = 5, .step_interval = 1e-5, .step_touching = 1},
 };
 enum { n_observers = sizeof observers / sizeof *observers };
 

@@ -492,6 +492,18 @@ class Callbacks(Case):
             self.assertTrue(simulation.advance(1e-3))
             np.testing.assert_allclose(seen, np.arange(11) * 1e-4, atol=1e-12)
 
+    def test_an_observer_says_which_steps_it_sees(self):
+        every, fifth, late = [], [], []
+        with dem.Simulation(disc(), method="verlet") as simulation:
+            simulation.observe(step=lambda s: every.append(s.t))
+            simulation.observe(step=lambda s: fifth.append(s.t), step_every=5)
+            simulation.observe(step=lambda s: late.append(s.t), step_interval=1e-4)
+            simulation.advance(1e-3)
+        self.assertGreater(len(every), 20)
+        self.assertEqual(fifth, every[::5])
+        windows = np.floor(np.array(every) / 1e-4)
+        self.assertEqual(late, [t for t, new in zip(every, np.diff(windows, prepend=-1.0)) if new > 0.0])
+
     def test_a_motion_by_a_function(self):
         """A floor that rises with 1 m/s meets a body at rest."""
         def rise(t, pose):

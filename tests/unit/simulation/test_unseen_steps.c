@@ -118,7 +118,9 @@ static dem_status on_checkpoint(void *context, const dem_simulation *simulation,
 /* Steps are a quarter of the bound of stability. */
 typedef struct plan {
     int threads;
-    bool seen;
+    bool seen;       /* whether an observer sees every step, */
+    int few;         /* else, if > 0, one sees the multiples of it, */
+    bool touching;   /* and those in which something touches */
     int every;       /* steps between checkpoints */
     double interval; /* steps between frames */
     double ends[3];  /* steps to the ends of advances; 0: none */
@@ -154,7 +156,9 @@ static dem_simulation *open_run(const dem_model *model, const plan *p, const dem
                                    .frame = on_frame,
                                    .event = on_event,
                                    .checkpoint = on_checkpoint,
-                                   .step = p->seen ? on_step : NULL,
+                                   .step = p->seen || p->few > 0 ? on_step : NULL,
+                                   .step_every = p->few,
+                                   .step_touching = p->touching,
                                    .context = d};
     assert_ok(dem_simulation_observe(simulation, &observer));
     return simulation;
@@ -208,6 +212,7 @@ static outcome compare(const dem_model *model, plan p)
 {
     plan single = p;
     single.seen = true;
+    single.few = 0;
     single.threads = 1;
     outcome seen = run_from(model, &single, NULL), unseen = {0};
     assert_int_equal(seen.waves.steps, 0);
@@ -261,6 +266,18 @@ TEST(a_free_flight_has_hardly_a_single_step)
     dem_model_destroy(model);
     assert_int_equal(o.counts.steps, 71);
     assert_true(o.waves.steps >= 65);
+}
+
+/* Waves go up to the ends that are seen, 7 steps apart, and to those of looks and checkpoints. In contact all are. */
+TEST(between_steps_that_are_seen_others_are_not)
+{
+    dem_model *model = make_model(30.0, 3e-4);
+    const outcome o =
+        compare(model, (plan){.every = 48, .interval = 17.3, .few = 7, .touching = true, .ends = {31.4, 105.2}});
+    dem_model_destroy(model);
+    assert_true(o.diary.n_events > 100);
+    assert_true(o.waves.steps > 30 && o.waves.steps < 100);
+    assert_true(o.diary.n_steps > 105 / 7 + 10 && o.diary.n_steps < 50);
 }
 
 /* Where the guard acts steps are single, which are halved then; it is asked after now and then. */
