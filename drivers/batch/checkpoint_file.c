@@ -196,10 +196,13 @@ static dem_status on_step(void *context, const dem_simulation *simulation)
     return DEM_STOPPED;
 }
 
-dem_observer checkpoint_file_observer(checkpoint_file *c)
+dem_observer checkpoint_file_observer(checkpoint_file *c, dem_index every)
 {
-    return (dem_observer){
-        .struct_size = sizeof(dem_observer), .step = on_step, .checkpoint = on_checkpoint, .context = c};
+    return (dem_observer){.struct_size = sizeof(dem_observer),
+                          .step = on_step,
+                          .checkpoint = on_checkpoint,
+                          .context = c,
+                          .step_every = every};
 }
 
 dem_status checkpoint_file_save(checkpoint_file *c, const dem_simulation *simulation)

@@ -60,8 +60,9 @@ checkpoint_file checkpoint_file_start(const command *c, const char *path, const 
                                       const checkpoint_source *source);
 
 /** To be handed to the simulation behind all others, trajectory and log set. Once the end is asked for it ends the run
- *  at the next checkpoint, or after ten seconds, and then with the checkpoint before. */
-dem_observer checkpoint_file_observer(checkpoint_file *c);
+ *  at the next checkpoint, or after ten seconds, and then with the checkpoint before.
+ *  \param every  steps from one look at the clock to the next; 0: 1 */
+dem_observer checkpoint_file_observer(checkpoint_file *c, dem_index every);
 
 /** Puts the last checkpoint on the disk, what was seen up to it before. */
 dem_status checkpoint_file_save(checkpoint_file *c, const dem_simulation *simulation);

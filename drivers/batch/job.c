@@ -147,17 +147,27 @@ static dem_status resume(job *j)
     return status == DEM_OK && j->deck.residual > 0.0 ? relaxation_resume(&j->rest, checkpoint) : status;
 }
 
+/* Steps from one look at a run to the next where nothing touches: as many as Verlet's method takes at once, where rows
+ * of the history are rarer than steps; 0: all are looked at. What may break is loaded until it does. */
+static dem_index between_looks(const job *j)
+{
+    const bool all = !(j->deck.history_interval > 0.0) || ask_may_break(dem_model_lattice(j->model));
+    return !all && ask_options(j->simulation).method == DEM_METHOD_VERLET ? 16 : 0;
+}
+
 static dem_status observe(job *j)
 {
+    const dem_index every = between_looks(j);
     const struct {
         bool wanted;
         dem_observer observer;
     } all[] = {{true, ask_trajectory_observer(j->trajectory)}, /* measures what peaks ask for, too */
                {j->peaks != NULL, ask_peaks_observer(j->peaks)},
-               {true, report_observer(&j->report)},
+               {true, report_observer(&j->report, every)},
                {j->deck.residual > 0.0, relaxation_observer(&j->rest)},
-               {j->deck.stop_at_overlap != 0, {.struct_size = sizeof(dem_observer), .step = stop_at_overlap}},
-               {true, checkpoint_file_observer(&j->checkpoint)}};
+               {j->deck.stop_at_overlap != 0,
+                {.struct_size = sizeof(dem_observer), .step = stop_at_overlap, .step_every = every}},
+               {true, checkpoint_file_observer(&j->checkpoint, every)}};
     dem_status status = DEM_OK;
     for (size_t k = 0; k < sizeof all / sizeof *all && status == DEM_OK; k++)
         if (all[k].wanted) status = dem_simulation_observe(j->simulation, &all[k].observer);

@@ -40,7 +40,8 @@ typedef struct rebound {
 /** To be called for every contact event. */
 void rebound_note(rebound *r, const dem_simulation *simulation, const dem_event *event);
 
-/** To be called at t = 0 and after every accepted step. */
+/** To be called at t = 0 and after every accepted step in which something touches, and with the state from which the
+ *  first of them goes; after others, too. */
 void rebound_follow(rebound *r, const dem_simulation *simulation, const dem_progress *now);
 
 /** Whether the last bounce is over, so that there is a velocity after it. */

@@ -286,14 +286,17 @@ static dem_status save(void *context, const dem_simulation *simulation, dem_chec
     return dem_checkpoint_put(checkpoint, touched_entry, r->touched, size);
 }
 
-dem_observer report_observer(report *r)
+dem_observer report_observer(report *r, dem_index every)
 {
     return (dem_observer){.struct_size = sizeof(dem_observer),
                           .step = follow,
                           .event = note_event,
                           .checkpoint = save,
                           .context = r,
-                          .broken = note_break};
+                          .broken = note_break,
+                          .step_every = every,
+                          .step_interval = every > 0 ? r->deck->history_interval : 0.0,
+                          .step_touching = true};
 }
 
 static void print_strain(const report *r)

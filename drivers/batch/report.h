@@ -62,8 +62,9 @@ dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_
 /** Keeps the warnings that an earlier process of the run has printed, in their order. */
 void report_warn_again(report *r, const dem_simulation *simulation);
 
-/** To be handed to the simulation: follows extremes and prints progress. */
-dem_observer report_observer(report *r);
+/** To be handed to the simulation: follows extremes and prints progress.
+ *  \param every  steps from one look to the next where nothing touches; 0: all are looked at */
+dem_observer report_observer(report *r, dem_index every);
 
 /** First and last contact, rebound, what was stressed most, the energy ledger and its closure, obstacles that carry,
  *  boundaries; with the details of a verbose log all obstacles, strains, energies, counts and wall time. */

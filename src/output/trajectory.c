@@ -394,7 +394,8 @@ dem_status dem_trajectory_resume(dem_trajectory **out, const char *path, const d
     return hand_out(out, t, go_on(t, checkpoint));
 }
 
-/* Without `events` or `breaks` the simulation need not report any. */
+/* Without `events` or `breaks` the simulation need not report any; without probes, which count steps, it need not show
+ * those without a row. */
 dem_status dem_trajectory_observer(dem_trajectory *trajectory, dem_observer *out)
 {
     CHECK(trajectory != NULL && out != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_observer: %s is NULL",
@@ -405,7 +406,9 @@ dem_status dem_trajectory_observer(dem_trajectory *trajectory, dem_observer *out
                               .event = trajectory->rows.options.events ? on_event : NULL,
                               .broken = trajectory->rows.options.breaks ? on_break : NULL,
                               .checkpoint = on_checkpoint,
-                              .context = trajectory};
+                              .context = trajectory,
+                              .step_interval =
+                                  trajectory->rows.options.n_probes == 0 ? trajectory->rows.history.interval : 0.0};
     return struct_size_write(&STRUCT_KIND(dem_observer), out, &own);
 }
 

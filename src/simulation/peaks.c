@@ -16,7 +16,8 @@
 
 struct dem_peaks {
     dem_index n_nodes, n_springs;
-    dem_index every, left; /* accepted steps between looks, and until the next */
+    dem_index every; /* accepted steps between looks, */
+    dem_index left;  /* so many are passed over before the next, as checkpoints have it */
     dem_node_peak *nodes;
     dem_spring_peak *springs;
     double *stress; /* [n_nodes][3] scratch */
@@ -46,14 +47,20 @@ static void look_at_springs(dem_peaks *p, const dem_simulation *simulation, doub
         if (fabs(p->strain[k]) > fabs(p->springs[k].strain)) p->springs[k] = (dem_spring_peak){p->strain[k], t};
 }
 
-/* The observer's step. `left` counts down to the next look, and is in checkpoints, so that looks fall on the same
- * steps. */
+/* Those whose number is a multiple of `every` are looked at. */
+static dem_index steps_since_look(const dem_peaks *p, const dem_simulation *simulation)
+{
+    dem_counts counts = {.struct_size = sizeof counts};
+    (void)dem_simulation_counts(simulation, &counts);
+    return counts.steps % p->every;
+}
+
+/* The observer's step. A program that was built with a header without `step_every` shows all of them. */
 static dem_status look(void *context, const dem_simulation *simulation)
 {
     dem_peaks *p = context;
     dem_state state = {.struct_size = sizeof state};
-    if (p->left-- > 0) return DEM_OK;
-    p->left = p->every - 1;
+    if (steps_since_look(p, simulation) > 0) return DEM_OK;
     TRY(dem_simulation_state(simulation, &state));
     TRY(look_at_nodes(p, simulation, state.t));
     look_at_springs(p, simulation, state.t);
@@ -72,8 +79,9 @@ static dem_status pass(dem_peaks *p, const checkpoint_entries_way *way)
 static dem_status remember(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
     const checkpoint_entries_way way = {.into = checkpoint};
-    (void)simulation;
-    return pass(context, &way);
+    dem_peaks *p = context;
+    p->left = p->every - 1 - steps_since_look(p, simulation);
+    return pass(p, &way);
 }
 
 /* ---- ranks ---- */
@@ -162,7 +170,7 @@ void dem_peaks_destroy(dem_peaks *peaks)
 dem_status dem_peaks_observer(dem_peaks *peaks, dem_observer *out)
 {
     CHECK(peaks != NULL && out != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_observer: %s is NULL", peaks ? "out" : "peaks");
-    const dem_observer own = {.step = look, .checkpoint = remember, .context = peaks};
+    const dem_observer own = {.step = look, .checkpoint = remember, .context = peaks, .step_every = peaks->every};
     return struct_size_write(&STRUCT_KIND(dem_observer), out, &own);
 }
 

@@ -30,7 +30,7 @@ static inline void follow(logged *l, bool terminal, double t_end)
     assert_non_null(l->log.out);
     l->deck = (deck){.t_end = t_end, .closure = 1e-2};
     report_start(&l->report, &l->log, &l->deck);
-    const dem_observer observer = report_observer(&l->report);
+    const dem_observer observer = report_observer(&l->report, 0);
     assert_ok(dem_simulation_observe(l->run.simulation, &observer));
 }
 

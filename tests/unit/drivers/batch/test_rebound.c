@@ -24,14 +24,23 @@ static dem_status event(void *context, const dem_simulation *simulation, const d
     return DEM_OK;
 }
 
+/* An observer that sees steps in which something touches, and hardly another one, has to come to the same. */
+static void assert_alike(const rebound *all, const rebound *few)
+{
+    assert_memory_equal(all, few, offsetof(rebound, started));
+    assert_int_equal(all->n_contacts, few->n_contacts);
+}
+
 /* Runs nodes of 2 kg without springs. */
 static rebound run_over(support_run *run, dem_index n, const double *x, const double *v, const dem_obstacle *floors,
                         dem_index n_floors, double t_end)
 {
     const double mass[2] = {2.0, 2.0};
     dem_options options = dem_options_default();
-    rebound r = {0};
-    const dem_observer observer = {.struct_size = sizeof(dem_observer), .step = step, .event = event, .context = &r};
+    rebound r, few;
+    memset(&r, 0, sizeof r);
+    memset(&few, 0, sizeof few);
+    dem_observer observer = {.struct_size = sizeof(dem_observer), .step = step, .event = event, .context = &r};
     options.spacing = 1.0, options.max_step = 0.01, options.rtol = 1e-12, options.v_scale = 1.0;
     options.penetration_tolerance = 1e-13;
     dem_lattice lattice = support_lattice(n, x, mass, 0, NULL, 0.0, 0.0, NULL);
@@ -42,7 +51,12 @@ static rebound run_over(support_run *run, dem_index n, const double *x, const do
     support_open(run, &lattice, floors, n_floors, &options);
     dem_lattice_free(&lattice);
     assert_ok(dem_simulation_observe(run->simulation, &observer));
+    observer.step_every = 1000;
+    observer.step_touching = true;
+    observer.context = &few;
+    assert_ok(dem_simulation_observe(run->simulation, &observer));
     assert_ok(dem_simulation_advance(run->simulation, t_end));
+    assert_alike(&r, &few);
     return r;
 }
 
