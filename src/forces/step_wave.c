@@ -28,7 +28,7 @@ enum {
 /* What a share has found. */
 typedef struct wave_result {
     bool holds; /* all is finite, and the guard acts nowhere */
-    double square[STEP_WAVE_MOST];
+    double square[STEP_WAVE_MOST], sum[STEP_WAVE_MOST];
 } wave_result;
 
 struct step_wave {
@@ -92,6 +92,13 @@ static dem_index limit(const wave_pass *p, int step)
 
 /* ---- what is known at the end of a step ---- */
 
+/* Takes what some accelerations add to the sum over all. */
+static void add_up(wave_pass *p, int step, double sum)
+{
+    p->result->holds = p->result->holds && isfinite(sum);
+    p->result->sum[step] += sum;
+}
+
 /* The highest speed of watched nodes up to `end`, which is behind. */
 static void watch(wave_pass *p, int step, dem_index end)
 {
@@ -150,8 +157,8 @@ static void end_rest(wave_pass *p, int step)
     const sweep_fused_step *s = &p->steps->step[step];
     const kernel_state y = {.x = s->x1, .v = s->v1, .a = p->steps->a[step], .fused_step = s};
     for (dem_index i = LAYOUT_LANES * l->n_blocks; i < l->n_nodes; i++) {
-        const double sum = kernel_accelerate_row(k, p->forces, &y, i);
-        p->result->holds = p->result->holds && isfinite(sum) && kernel_guard_bound(k, p->forces, s->x1, i) == 0.0;
+        add_up(p, step, kernel_accelerate_row(k, p->forces, &y, i));
+        p->result->holds = p->result->holds && kernel_guard_bound(k, p->forces, s->x1, i) == 0.0;
     }
     watch(p, step, l->n_nodes);
     if (step + 1 < p->steps->n) drift_rest(p, step + 1);
@@ -174,8 +181,8 @@ static void take_blocks(wave_pass *p, int step, dem_index to)
                           .fused_step = s,
                           .drift_end = drift_end(p, step)};
     if (!blocks.goes_on) begin_step(p, step);
-    const double sum = k->sweep(&blocks, from, to, p->rings + (size_t)step * k->ring_size);
-    p->result->holds = p->result->holds && isfinite(sum) && !guard_acts(p, from, to);
+    add_up(p, step, k->sweep(&blocks, from, to, p->rings + (size_t)step * k->ring_size));
+    p->result->holds = p->result->holds && !guard_acts(p, from, to);
     p->done[step] = to;
     watch(p, step, LAYOUT_LANES * to);
     if (to == l->n_blocks) end_rest(p, step);
@@ -249,11 +256,14 @@ bool step_wave_run(step_wave *w, const forces *f, step_wave_steps *steps)
     team_run(w->kernel->team, w->n_shares, run_share, &context);
     for (int k = 0; k < w->n_shares; k++) holds = holds && w->results[k].holds;
     if (holds && w->n_shares > 1) team_run(w->kernel->team, w->n_shares - 1, run_border, &context);
-    for (int step = 0; step < steps->n; step++) steps->square[step] = 0.0;
+    for (int step = 0; step < steps->n; step++) steps->square[step] = steps->sum[step] = 0.0;
     for (int k = 0; k < 2 * w->n_shares; k++) {
-        holds = holds && w->results[k].holds;
-        for (int step = 0; step < steps->n; step++)
-            steps->square[step] = fmax(steps->square[step], w->results[k].square[step]);
+        const wave_result *r = &w->results[k];
+        holds = holds && r->holds;
+        for (int step = 0; step < steps->n; step++) {
+            steps->square[step] = fmax(steps->square[step], r->square[step]);
+            steps->sum[step] += r->sum[step];
+        }
     }
     return holds;
 }

@@ -16,7 +16,8 @@ typedef struct step_wave_steps {
     double *a[STEP_WAVE_MOST];             /* [n_nodes][2] accelerations at the ends of the steps */
     const dem_index *watched;              /* [n_watched] nodes, ascending */
     dem_index n_watched;                   /* >= 0 */
-    double square[STEP_WAVE_MOST];         /* filled: of the highest speed of watched nodes at each end, m^2/s^2 */
+    double square[STEP_WAVE_MOST];         /* filled: of the highest speed of watched nodes at each end, m^2/s^2, */
+    double sum[STEP_WAVE_MOST];            /* and the sum of sweep_term() of all accelerations there */
 } step_wave_steps;
 
 typedef struct step_wave step_wave;

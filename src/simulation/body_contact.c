@@ -94,6 +94,41 @@ dem_status body_contact_failure(const dem_simulation *s)
     return of_rigid == DEM_ERROR_MEMORY ? of_rigid : status_first(of_bodies, of_rigid);
 }
 
+/* ---- free flight ---- */
+
+int body_contact_free_steps(const dem_simulation *s, int most)
+{
+    if (s->surfaces == NULL) return most;
+    approach_bound b = s->surfaces->bound;
+    int n = 0;
+    while (n < most && approach_bound_pass_step(&b, s->options.fixed_step, b.at_start)) n++;
+    return n;
+}
+
+/* Follows the bound along the steps.  \return whether it holds for them */
+static bool pass_steps(approach_bound *b, const body_flight *flight)
+{
+    bool holds = true;
+    for (int k = 0; k < flight->n && holds; k++)
+        holds = approach_bound_pass_step(b, flight->t[k + 1] - flight->t[k], sweep_largest(flight->sum[k]));
+    return holds;
+}
+
+bool body_contact_can_fly(const dem_simulation *s, const body_flight *flight)
+{
+    if (s->surfaces == NULL) return true;
+    approach_bound b = s->surfaces->bound;
+    return pass_steps(&b, flight);
+}
+
+/* What the last evaluation is asked for afterwards is that at the last end. */
+void body_contact_fly(dem_simulation *s, const body_flight *flight)
+{
+    if (s->surfaces == NULL) return;
+    (void)pass_steps(&s->surfaces->bound, flight);
+    (void)surface_contact_evaluate(s->surfaces, flight->x);
+}
+
 /* ---- steps ---- */
 
 /* Steps of a fixed length cannot be shortened by the loop. */

@@ -27,6 +27,22 @@ void body_contact_take_accelerations(dem_simulation *s, double sum);
 void body_contact_end_step(dem_simulation *s);
 void body_contact_begin_anew(dem_simulation *s);
 
+/** Steps without another look at surfaces, in which none come near each other: so many of `most` there are from the
+ *  state on, if accelerations stay what they are. A step has been begun. */
+int body_contact_free_steps(const dem_simulation *s, int most);
+
+/** Such steps, one after the other. */
+typedef struct body_flight {
+    int n;
+    const double *t;   /* [n + 1] s, their start and their ends */
+    const double *sum; /* [n] of sweep_term() of all accelerations at each end */
+    const double *x;   /* positions at the last end */
+} body_flight;
+
+/** Whether the steps were of this kind; and then, follows them as body_contact_end_step() does each. */
+bool body_contact_can_fly(const dem_simulation *s, const body_flight *flight);
+void body_contact_fly(dem_simulation *s, const body_flight *flight);
+
 /** Why the forces could not be evaluated: DEM_ERROR_MEMORY if they once could not since, else the status of the last
  *  evaluation. */
 dem_status body_contact_failure(const dem_simulation *s);

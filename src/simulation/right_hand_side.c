@@ -171,8 +171,10 @@ static bool take_fused_steps(const ode_fused_step *steps, int n, void *context)
         wave.a[k] = p->f1 + v;
         t[k + 1] = p->t1;
     }
-    if (!step_wave_run(s->unseen.wave, &s->forces, &wave)) return false;
+    const body_flight flight = {.n = n, .t = t, .sum = wave.sum, .x = steps[n - 1].y1};
+    if (!step_wave_run(s->unseen.wave, &s->forces, &wave) || !body_contact_can_fly(s, &flight)) return false;
     if (!automaton_fly(&s->automaton, &(automaton_flight){n, t, wave.square})) return false;
+    body_contact_fly(s, &flight);
     for (int k = 0; k < n; k++) begin_rates(&s->layout, steps[k].f1 + v);
     return true;
 }

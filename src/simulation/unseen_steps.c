@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Whatever could make a difference keeps steps single: observers of each step, forces that depend on more than the
- * positions of neighbours, contacts closed or near, surfaces of bodies that may touch each other, elements that may
- * break or have done so. If it turns out afterwards that the guard acts or something came near, they are taken once
- * more, one by one. */
+ * positions of neighbours, contacts closed or near, surfaces of bodies near each other, elements that may break or
+ * have done so. If it turns out afterwards that the guard acts or something came near, they are taken once more, one by
+ * one. */
 #include "simulation/unseen_steps.h"
 
 #include <stdlib.h>
 
 #include "base/sorted.h"
 #include "contact/automaton_step.h"
+#include "simulation/body_contact.h"
 
 enum {
     LEAST_NODES = 250000, /* of fewer the third cache has all arrays of a step */
@@ -33,8 +34,8 @@ static dem_status list_surface(dem_simulation *s)
 dem_status unseen_steps_create(dem_simulation *s)
 {
     const bool fixed = s->options.method == DEM_METHOD_VERLET && s->options.fixed_step > 0.0;
-    const bool alone = s->model->domain == NULL && s->surfaces == NULL && s->rigid == NULL && s->external == NULL &&
-                       s->boundaries.n == 0 && !s->model->obstacles.is_asked;
+    const bool alone = s->model->domain == NULL && s->rigid == NULL && s->external == NULL && s->boundaries.n == 0 &&
+                       !s->model->obstacles.is_asked;
     if (!fixed || !alone || s->layout.n_nodes < LEAST_NODES || run_may_break(s) || !run_is_local(s) ||
         !kernel_can_fuse(&s->kernel, &s->forces))
         return DEM_OK;
@@ -82,9 +83,12 @@ int unseen_steps_take(dem_simulation *s, int most, double t_end)
 {
     run_unseen *u = &s->unseen;
     if (u->wave == NULL || s->forces.elements != NULL) return 0;
-    const int n = count_free(s, most < ODE_FUSED_STEPS ? most : ODE_FUSED_STEPS, t_end);
+    int n = count_free(s, most < ODE_FUSED_STEPS ? most : ODE_FUSED_STEPS, t_end);
     if (n < FEWEST || !automaton_may_fly(&s->automaton, n * s->options.fixed_step)) return 0;
     if (is_waiting(u)) return 0;
+    body_contact_begin_step(s);
+    n = body_contact_free_steps(s, n);
+    if (n < FEWEST) return 0;
     double ends[ODE_FUSED_STEPS];
     if (!integrator_take_unseen(&s->integrator, n, ends)) {
         wait(u);

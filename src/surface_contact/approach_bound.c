@@ -71,6 +71,15 @@ void approach_bound_end_step(approach_bound *b, double length)
     b->at_start = b->last;
 }
 
+bool approach_bound_pass_step(approach_bound *b, double length, double acceleration)
+{
+    (void)approach_bound_begin_step(b);
+    if (!approach_bound_holds(b)) return false;
+    approach_bound_take(b, acceleration);
+    approach_bound_end_step(b, length);
+    return true;
+}
+
 void approach_bound_forget(approach_bound *b)
 {
     approach_bound_lose(b);

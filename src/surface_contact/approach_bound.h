@@ -44,6 +44,11 @@ void approach_bound_take(approach_bound *b, double acceleration);
 /** Ends the step, after its length in s. */
 void approach_bound_end_step(approach_bound *b, double length);
 
+/** Follows a step of this length, s, that is taken in one with those after it, at whose only evaluation no node has a
+ *  larger acceleration, m/s^2.
+ *  \return false if it needs a look: the bound is lost then */
+bool approach_bound_pass_step(approach_bound *b, double length, double acceleration);
+
 /** Nothing is bounded any more, since surfaces are compared with another state. */
 void approach_bound_lose(approach_bound *b);
 

@@ -55,6 +55,19 @@ static dem_model *make_model(double swelling, double height)
     return support_model(&plate, &floor, height > 0.0 ? 1 : 0);
 }
 
+/* Over another one at rest, so many m below. */
+static dem_model *make_pair(double swelling, double height)
+{
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                      .density = 1050.0, .thickness = 1.0, .guard = 0.02);
+    CLEANUP(dem_lattice_free) dem_lattice plate = make_plate(swelling);
+    CLEANUP(dem_lattice_free) dem_lattice other = support_rectangle(0.3, 0.01, spacing, &rubber);
+    const double down[2] = {0.1, -height - support_top(&other)};
+    dem_lattice_move(&other, 0.0, down);
+    assert_ok(dem_lattice_append(&plate, &other));
+    return support_model(&plate, NULL, 0);
+}
+
 enum { FRAMES = 16 };
 
 /* What observers have seen. */
@@ -124,6 +137,7 @@ typedef struct plan {
     int every;       /* steps between checkpoints */
     double interval; /* steps between frames */
     double ends[3];  /* steps to the ends of advances; 0: none */
+    dem_bodies bodies;
 } plan;
 
 /* What a run has come to. */
@@ -132,6 +146,7 @@ typedef struct outcome {
     motion end;
     double sum;
     dem_counts counts;
+    dem_index n_pushing; /* pairs of surfaces */
     struct tally waves;
 } outcome;
 
@@ -142,6 +157,7 @@ static dem_options options_of(const plan *p)
     options.threads = p->threads;
     options.thread_nodes = 1;
     options.checkpoint_steps = p->every;
+    options.bodies = p->bodies;
     return options;
 }
 
@@ -176,6 +192,7 @@ static outcome run_from(const dem_model *model, const plan *p, const dem_checkpo
     o.end = see(simulation);
     o.sum = sum_up(&o.end, ask_sizes(model).n_nodes);
     o.counts = ask_counts(simulation);
+    o.n_pushing = ask_surfaces(simulation).pushing;
     o.end.x = o.end.v = NULL;
     dem_simulation_destroy(simulation);
     return o;
@@ -186,6 +203,7 @@ static void assert_alike(const outcome *a, const outcome *b)
     assert_memory_equal(&a->end, &b->end, offsetof(motion, contacts));
     assert_memory_equal(&a->sum, &b->sum, sizeof a->sum);
     assert_memory_equal(&a->counts, &b->counts, sizeof a->counts);
+    assert_int_equal(a->n_pushing, b->n_pushing);
     assert_int_equal(a->diary.n_events, b->diary.n_events);
     assert_memory_equal(&a->diary.last_event, &b->diary.last_event, sizeof(double));
 }
@@ -268,12 +286,28 @@ TEST(a_free_flight_has_hardly_a_single_step)
     assert_true(o.waves.steps >= 65);
 }
 
-/* Waves go up to the ends that are seen, 7 steps apart, and to those of looks and checkpoints. In contact all are. */
+/* Two plates that push each other after some 80 steps, at the last of which they are near. */
+TEST(bodies_that_meet_take_the_steps_before_at_once)
+{
+    dem_model *model = make_pair(0.0, 5e-4);
+    const outcome o =
+        compare(model, (plan){.every = 100, .interval = 17.3, .ends = {13.4, 90.2}, .bodies = DEM_BODIES_OTHERS});
+    dem_model_destroy(model);
+    assert_true(o.n_pushing > 0);
+    assert_true(o.waves.steps > 30 && o.waves.steps < 85);
+}
+
+/* Waves go up to the ends that are seen, 7 steps apart, and to those of looks and checkpoints. In contact all are. That
+ * the surface of the plate stays apart from itself is known ahead. */
 TEST(between_steps_that_are_seen_others_are_not)
 {
     dem_model *model = make_model(30.0, 3e-4);
-    const outcome o =
-        compare(model, (plan){.every = 48, .interval = 17.3, .few = 7, .touching = true, .ends = {31.4, 105.2}});
+    const outcome o = compare(model, (plan){.every = 48,
+                                            .interval = 17.3,
+                                            .few = 7,
+                                            .touching = true,
+                                            .ends = {31.4, 105.2},
+                                            .bodies = DEM_BODIES_ALL});
     dem_model_destroy(model);
     assert_true(o.diary.n_events > 100);
     assert_true(o.waves.steps > 30 && o.waves.steps < 100);
