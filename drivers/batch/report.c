@@ -188,7 +188,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     const bool looks = dem_history_row_due(r->deck->history_interval, r->so_far.looked_t, now.t);
     if (looks) follow_energy(r, simulation, &now);
     if (looks) follow_strain(r, simulation, now.t);
-    step_report_follow(&r->so_far.step_report, simulation, &now);
+    if (looks || r->every == 0) step_report_follow(&r->so_far.step_report, simulation, &now);
     if (surface_report_follow(&r->so_far.surface_report, simulation, now.t))
         surface_report_warn(&r->so_far.surface_report, r->log);
     rebound_follow(&r->so_far.rebound, simulation, &now);
@@ -288,6 +288,7 @@ static dem_status save(void *context, const dem_simulation *simulation, dem_chec
 
 dem_observer report_observer(report *r, dem_index every)
 {
+    r->every = every;
     return (dem_observer){.struct_size = sizeof(dem_observer),
                           .step = follow,
                           .event = note_event,

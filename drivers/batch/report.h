@@ -42,6 +42,7 @@ typedef struct report {
     double wall_start, wall_shown; /* s */
     double t_start, t_shown;       /* s */
     dem_index steps_start;         /* before this process */
+    dem_index every;               /* steps from one look to the next where nothing touches; 0: all are looked at */
     report_progress so_far;
     const dem_peaks *peaks; /* for the summary; to be set behind report_start(), NULL: none */
     dem_index most_stressed;
