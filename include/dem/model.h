@@ -29,7 +29,9 @@ typedef struct dem_pose {
 /** A motion that a program gives, twice continuously differentiable. It depends on t alone: the same t has the same
  *  pose whenever it is asked for, which is not in the order of time, and may be beyond the time of the run.
  *  Called by what computes with the obstacle, such as an advance, in the thread of the call and never from several at
- *  once; what only looks at a model or a simulation does not call it.
+ *  once; what only looks at a model or a simulation does not call it. Of ranks (dem/mpi.h) each calls its own, which
+ *  returns to the bit what those of the others do: they compare it when a simulation is created, and before each step
+ *  at `max_step` from its start. A difference ends the call on all ranks with DEM_ERROR_ARGUMENT.
  *  \param[out] pose  all 0 at entry
  *  \return other than DEM_OK to end an advance, which returns it and goes back to the last good state */
 typedef dem_status (*dem_motion)(void *context, double t, dem_pose *pose);

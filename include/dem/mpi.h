@@ -32,8 +32,11 @@
  *  loads of obstacles, dem_simulation_surfaces() and dem_simulation_pair() are the same on each, and a rank may ask for
  *  these, for contact forces and pressures of its part, and watch events, by itself.
  *
- *  Ranks cannot share yet, and refuse: obstacles whose motion a function computes, what may break, external forces, a
- *  body alone without obstacles that touches itself, trajectories, overlaps of bodies and their fragments.
+ *  Functions of the program, external forces and motions of obstacles, are called on each rank, by that rank alone, and
+ *  answer alike on all: dem_force and dem_motion say what they are asked. A failure of one is that of all ranks.
+ *
+ *  Ranks cannot share yet, and refuse: what may break, a body alone without obstacles that touches itself,
+ *  trajectories, overlaps of bodies and their fragments.
  *
  *  MPI is initialised and finalised by the program: models are created after the one and destroyed before the other.
  *  All calls come from one thread, that of MPI_Init() or MPI_Init_thread() unless MPI has MPI_THREAD_SERIALIZED. A

@@ -36,11 +36,12 @@ typedef struct dem_boundary {
     double ramp;            /**< s, >= 0; > 0 for a displacement */
 } dem_boundary;
 
-/** Where an external force is wanted: n nodes with their places and velocities at an instant. */
+/** Where an external force is wanted: n nodes with their places and velocities at an instant. Where ranks share the
+ *  model (dem/mpi.h) "all" are those that this rank integrates, whoever owns them. */
 typedef struct dem_force_query {
     double t;               /**< s */
-    dem_index n;            /**< nodes asked about: all of them, or those near a contact */
-    const dem_index *nodes; /**< [n] their numbers in the lattice */
+    dem_index n;            /**< nodes asked about: all of them in ascending order, or those near a contact */
+    const dem_index *nodes; /**< [n] their numbers in the lattice, of ranks in the whole one */
     const double *x, *v;    /**< [n][2] m, m/s: of nodes[k] at x[2 k], x[2 k + 1] */
 } dem_force_query;
 
@@ -49,7 +50,9 @@ typedef struct dem_force_query {
  *  beside it. It is asked for states that are then thrown away, and not in the order of time. What varies in x, v or t
  *  faster than the bodies themselves wants a `max_step` of its own. Called by
  *  dem_simulation_advance() and dem_simulation_resume(), in their thread and never from several at once; by nothing
- *  that only looks at a simulation.
+ *  that only looks at a simulation. Of ranks each calls its own, which answers as those of the others do: several ranks
+ *  ask about the same nodes. Whether it does is seen once, before the first step, where a rank asks about nodes next to
+ *  its own, too; a difference ends the call on all ranks with DEM_ERROR_ARGUMENT.
  *  \param[out] force  [n][2] N, zero at entry
  *  \return other than DEM_OK to end the advance, which returns it */
 typedef dem_status (*dem_force)(void *context, const dem_force_query *query, double *force);

@@ -407,10 +407,11 @@ class dem_boundary(SizedStructure):
 
 
 class dem_force_query(Structure):
-    """Where an external force is wanted: n nodes with their places and velocities at an instant.
+    """Where an external force is wanted: n nodes with their places and velocities at an instant. Where ranks share the
+    model (dem/mpi.h) "all" are those that this rank integrates, whoever owns them.
     t: s
-    n: nodes asked about: all of them, or those near a contact
-    nodes: [n] their numbers in the lattice
+    n: nodes asked about: all of them in ascending order, or those near a contact
+    nodes: [n] their numbers in the lattice, of ranks in the whole one
     v: x, v: [n][2] m, m/s: of nodes[k] at x[2 k], x[2 k + 1]"""
     _fields_ = [("t", c_double), ("n", c_int64), ("nodes", POINTER(c_int64)), ("x", POINTER(c_double)),
                 ("v", POINTER(c_double))]

@@ -4,7 +4,9 @@
 #ifndef DEM_BASE_RANDOM_H
 #define DEM_BASE_RANDOM_H
 
+#include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 static const uint64_t random_stride = 0x9e3779b97f4a7c15u;
 
@@ -14,6 +16,20 @@ static inline uint64_t random_mix(uint64_t z)
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
+}
+
+/** A hash that goes on with an array: with numbers of 8 bytes, and what is left of bytes; NULL is another array than an
+ *  empty one. */
+static inline uint64_t random_hash(uint64_t hash, const void *array, size_t size)
+{
+    uint64_t word;
+    if (array == NULL) return random_mix(hash);
+    for (size_t k = 0; k < size; k += sizeof word) {
+        word = 0;
+        memcpy(&word, (const char *)array + k, size - k < sizeof word ? size - k : sizeof word);
+        hash = random_mix(hash + random_stride + word);
+    }
+    return hash;
 }
 
 /** The next number, in [-1, 1), of splitmix64. The state may start at any value and is advanced. */

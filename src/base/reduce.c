@@ -44,6 +44,25 @@ bool reduce_any(const ranks *r, bool own)
     return own;
 }
 
+typedef struct likeness {
+    uint64_t least, most;
+} likeness;
+
+static void join_likenesses(void *packet, const void *other)
+{
+    likeness *const own = packet;
+    const likeness *theirs = other;
+    if (theirs->least < own->least) own->least = theirs->least;
+    if (theirs->most > own->most) own->most = theirs->most;
+}
+
+bool reduce_alike(const ranks *r, uint64_t own)
+{
+    likeness all = {own, own};
+    r->reduce(r->self, &all, sizeof all, join_likenesses);
+    return all.least == all.most;
+}
+
 static void join_count(void *packet, const void *other)
 {
     *(dem_index *)packet += *(const dem_index *)other;

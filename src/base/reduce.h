@@ -27,6 +27,9 @@ static inline double reduce_larger(double a, double b)
 
 bool reduce_any(const ranks *r, bool own);
 
+/** Whether all ranks have the same number. */
+bool reduce_alike(const ranks *r, uint64_t own);
+
 /** The sum of counts; each item is counted by one rank. */
 dem_index reduce_count(const ranks *r, dem_index own);
 

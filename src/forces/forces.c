@@ -13,13 +13,18 @@ vec2 forces_of_damaged(const forces *f, dem_index i, const double *x, const doub
     return forces_of_whole_elements(f, f->elements, i, x, v);
 }
 
+static bool have_work(const forces *f)
+{
+    return f->boundaries != NULL || f->external != NULL;
+}
+
 /* The external force has been evaluated for all nodes before; its power is added to that of the conditions. */
 double forces_prescribe(const forces *f, double t, const double *v, double *u, double *a)
 {
     const double *mass = f->model->lattice.mass;
     exact_sum work = {0};
     exact_terms terms;
-    if (f->boundaries == NULL && f->external == NULL) return 0.0;
+    if (!have_work(f)) return 0.0;
     exact_terms_begin(&terms, &work);
     if (f->boundaries != NULL)
         boundary_conditions_prescribe(f->boundaries, mass, t, v, &(boundary_derivative){u, a, &terms});
@@ -85,6 +90,13 @@ double forces_damping_power(const forces *f, const double *x, const double *v)
     add_drag(f, v, &terms);
     exact_terms_end(&terms);
     return reduce_sum(f->model->ranks, &power);
+}
+
+void forces_sum_nothing(const forces *f)
+{
+    const exact_sum nothing = {0};
+    if (have_work(f)) (void)reduce_sum(f->model->ranks, &nothing);
+    if (forces_are_damped(f)) (void)reduce_sum(f->model->ranks, &nothing);
 }
 
 double forces_friction_power(const forces *f, const double *x, const double *v)

@@ -249,6 +249,9 @@ forces_power forces_node_power(const forces *f, dem_index i, vec2 external, cons
 /** Power that damping takes, of all springs and masses, W, >= 0. */
 double forces_damping_power(const forces *f, const double *x, const double *v);
 
+/** Takes part in the sums of other ranks that evaluate forces_prescribe() and then forces_damping_power(). */
+void forces_sum_nothing(const forces *f);
+
 /** Power that friction of bodies with each other takes, W. */
 double forces_friction_power(const forces *f, const double *x, const double *v);
 

@@ -8,11 +8,11 @@
 
 #include "base/status.h"
 
-/* Number of nodes with a prescribed component. */
-static dem_index count(const boundary_conditions *b, dem_index n_nodes)
+/* Number of nodes that are integrated here and have a prescribed component. */
+static dem_index count(const boundary_conditions *b, const external_force *external)
 {
     dem_index n = 0;
-    for (dem_index i = 0; b->held != NULL && i < n_nodes; i++) n += b->held[i] != 0;
+    for (dem_index k = 0; b->held != NULL && k < external->n_all; k++) n += b->held[external->all[k]] != 0;
     return n;
 }
 
@@ -33,7 +33,7 @@ static dem_status allocate(held_forces *h, const state_layout *layout)
 dem_status held_forces_create(held_forces *out, const boundary_conditions *b, const external_force *external,
                               const state_layout *layout)
 {
-    *out = (held_forces){.n = external != NULL ? count(b, layout->n_nodes) : 0};
+    *out = (held_forces){.n = external != NULL ? count(b, external) : 0};
     if (out->n == 0) return DEM_OK;
     const dem_status status = allocate(out, layout);
     if (status != DEM_OK) {
@@ -42,8 +42,8 @@ dem_status held_forces_create(held_forces *out, const boundary_conditions *b, co
     }
     /* Ascending, so that the external force sees the nodes in the same order in every run. */
     dem_index *next = out->nodes;
-    for (dem_index i = 0; i < layout->n_nodes; i++)
-        if (b->held[i] != 0) *next++ = i;
+    for (dem_index k = 0; k < external->n_all; k++)
+        if (b->held[external->all[k]] != 0) *next++ = external->all[k];
     return DEM_OK;
 }
 

@@ -381,7 +381,7 @@ static double push(const forces *f, const kernel_state *y)
 {
     external_force *c = f->external;
     double sum = 0.0;
-    external_force_evaluate(c, &(dem_force_query){y->v[f->clock], c->n_nodes, c->all, y->x, y->v});
+    external_force_evaluate_all(c, y->v[f->clock], y->x, y->v);
     for (dem_index i = 0; i < c->n_nodes; i++) {
         const vec2 a = forces_with(f, i, vec2_at(y->a, i), vec2_at(c->value, i));
         vec2_put(y->a, i, a);

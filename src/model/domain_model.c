@@ -298,12 +298,10 @@ static dem_status compile(const domain_cut *c, const dem_obstacle *obstacles, de
     return obstacles_compile(&m->obstacles, obstacles, n_obstacles);
 }
 
-/* What ranks cannot share yet. A motion that the program computes may differ from rank to rank. */
+/* What ranks cannot share yet. */
 static dem_status check(const ranks *r, const dem_model *whole)
 {
     const dem_lattice *l = &whole->lattice;
-    CHECK(!whole->obstacles.is_asked, DEM_ERROR_MODEL,
-          "%d ranks cannot share a model with obstacles whose motion a function computes yet", r->size);
     CHECK(l->strength == NULL && l->critical_stretch == NULL && l->compressive_strength == NULL, DEM_ERROR_MODEL,
           "%d ranks cannot share a model that may break yet", r->size);
     return DEM_OK;

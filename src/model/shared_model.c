@@ -17,39 +17,35 @@
 
 /* ---- whether all have the same ---- */
 
-/* Of numbers of 8 bytes, and what is left of bytes. */
-static uint64_t hash_on(uint64_t hash, const void *array, size_t size)
-{
-    uint64_t word;
-    if (array == NULL) return random_mix(hash);
-    for (size_t k = 0; k < size; k += sizeof word) {
-        word = 0;
-        memcpy(&word, (const char *)array + k, size - k < sizeof word ? size - k : sizeof word);
-        hash = random_mix(hash + random_stride + word);
-    }
-    return hash;
-}
-
 static uint64_t hash_of_lattice(const dem_lattice *l)
 {
     const uint64_t n = (uint64_t)l->n_nodes, s = (uint64_t)l->n_springs, t = (uint64_t)l->n_triangles;
     uint64_t hash = random_mix(n) ^ random_mix(s + 1) ^ random_mix(t + 2);
     for (int k = 0; k < LATTICE_ARRAYS; k++) {
         const lattice_array *a = &lattice_arrays[k];
-        hash = hash_on(hash, lattice_array_of(l, a), (size_t)lattice_count(l, a->of) * a->size);
+        hash = random_hash(hash, lattice_array_of(l, a), (size_t)lattice_count(l, a->of) * a->size);
     }
     return hash;
 }
 
-/* Places, laws of impacts and friction, and of the motion. */
+/* Places, laws of impacts and friction, and of the motion. A function has another address in each process: what it
+ * returns is compared in a run (simulation/likeness.c). */
 static uint64_t hash_of_obstacle(uint64_t hash, const dem_obstacle *o)
 {
-    const double law[] = {o->restitution, o->friction, (double)o->friction_law, o->ramp};
+    const bool is_asked = o->motion != NULL;
+    const double law[] = {o->restitution,
+                          o->friction,
+                          (double)o->friction_law,
+                          o->ramp,
+                          (double)is_asked,
+                          is_asked ? o->most_speed : 0.0,
+                          is_asked ? o->most_acceleration : 0.0,
+                          is_asked ? o->longest_step : 0.0};
     dem_index k = 0;
-    hash = hash_on(hash, o->points, 2 * (size_t)o->n_points * sizeof *o->points);
-    hash = hash_on(hash, law, sizeof law);
+    hash = random_hash(hash, o->points, 2 * (size_t)o->n_points * sizeof *o->points);
+    hash = random_hash(hash, law, sizeof law);
     for (const dem_motion_field *f; (f = dem_motion_field_at(k)) != NULL; k++)
-        hash = hash_on(hash, (const char *)o + f->offset, (size_t)f->n * sizeof(double));
+        hash = random_hash(hash, (const char *)o + f->offset, (size_t)f->n * sizeof(double));
     return hash;
 }
 
@@ -60,23 +56,9 @@ static uint64_t hash_of(const dem_model *m)
     return hash;
 }
 
-typedef struct likeness {
-    uint64_t hash;
-    bool differs;
-} likeness;
-
-static void join_likenesses(void *packet, const void *other)
-{
-    likeness *const own = packet;
-    const likeness *theirs = other;
-    own->differs = own->differs || theirs->differs || own->hash != theirs->hash;
-}
-
 static dem_status check_same(const ranks *r, const dem_model *m)
 {
-    likeness all = {.hash = hash_of(m)};
-    r->reduce(r->self, &all, sizeof all, join_likenesses);
-    CHECK(!all.differs, DEM_ERROR_ARGUMENT, "the lattices or obstacles of the %d ranks differ", r->size);
+    CHECK(reduce_alike(r, hash_of(m)), DEM_ERROR_ARGUMENT, "the lattices or obstacles of the %d ranks differ", r->size);
     return DEM_OK;
 }
 

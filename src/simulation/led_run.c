@@ -433,9 +433,10 @@ static void free_run(led_run *l)
 
 static dem_status lead(led_run *l, const dem_checkpoint *checkpoint)
 {
-    /* Whose address means nothing to the others. */
+    /* Functions whose addresses mean nothing to the others. */
     CHECK(!l->whole->model->obstacles.is_asked, DEM_ERROR_MODEL,
           "rank 0 cannot lead a run with obstacles whose motion a function computes");
+    CHECK(l->options->force == NULL, DEM_ERROR_ARGUMENT, "rank 0 cannot lead a run with an external force");
     TRY(balance_create(&l->balance, l->ranks.size));
     return begin(l, checkpoint);
 }

@@ -14,8 +14,8 @@
  *  \param options     with which the simulation was created; outlive it, with what they refer to
  *  \param checkpoint  from which it was resumed; NULL: it was not
  *  \return as domain_model_create() and dem_simulation_create(); then it leads nobody, and has to be destroyed, as what
- *  it would have been advanced with is gone (simulation/step_parts.h). Likewise after DEM_ERROR_MODEL, where a function
- *  computes the motion of an obstacle */
+ *  it would have been advanced with is gone (simulation/step_parts.h). Likewise where rank 0 has a function that the
+ *  others have not: after DEM_ERROR_MODEL, that of an obstacle's motion, or DEM_ERROR_ARGUMENT, an external force */
 DEM_API dem_status dem_private_lead(dem_simulation *whole, const ranks *r, const dem_options *options,
                                     const dem_checkpoint *checkpoint);
 

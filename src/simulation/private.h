@@ -149,11 +149,14 @@ static inline bool run_force_failed(const dem_simulation *s)
     return reduce_any(s->model->ranks, run_own_force_failed(s));
 }
 
-/* The status and message of that failure, which is over then. */
+/* The status and message of that failure on all ranks, which is over then. A rank may have failed in a later evaluation
+ * than another one: that of the first counts, as in a process alone. */
 static inline dem_status run_force_failure(const dem_simulation *s)
 {
-    const dem_status of_motion = surface_failed(&s->automaton.set.scene) ? given_motion_failure() : DEM_OK;
-    return external_force_failed(s->external) ? external_force_failure(s->external) : of_motion;
+    const double key = external_force_failed(s->external) ? s->external->key : 0.0;
+    dem_status own = surface_failed(&s->automaton.set.scene) ? given_motion_failure() : DEM_OK;
+    if (external_force_failed(s->external)) own = external_force_failure(s->external);
+    return reduce_status(s->model->ranks, own, key);
 }
 
 /* Accepted steps since the start of the run, with the one in hand. */

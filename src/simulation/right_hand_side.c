@@ -84,6 +84,11 @@ static void fill_ghosts(double *y, void *context)
     halo_exchange(&s->halo, arrays, forces_couple_velocities(&s->forces) ? 2 : 1);
 }
 
+static void take_part(void *context)
+{
+    forces_sum_nothing(&((const dem_simulation *)context)->forces);
+}
+
 /* A rank whose derivative has failed evaluates no other until all ranks know: the message is still that. */
 static void name_failure(bool is_first, void *context)
 {
@@ -109,6 +114,7 @@ ode_domain right_hand_side_domain(const dem_simulation *s)
                                                  state_has_total(&s->layout, STATE_OBSTACLE)),
                         .is_own = model->domain->is_own,
                         .fill_ghosts = fill_ghosts,
+                        .take_part = take_part,
                         .name_failure = name_failure,
                         .wants_stop = wants_stop,
                         .stop = stop};

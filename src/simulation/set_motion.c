@@ -117,7 +117,7 @@ dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const d
     TRY(reduce_status(s->model->ranks, check_rigid(s, x != NULL ? x : seen.x, v != NULL ? v : seen.v), 0.0));
     if (x != NULL) TRY(reduce_status(s->model->ranks, automaton_check_start(&s->automaton, s->seen_t, x), 0.0));
     if (x != NULL) TRY(check_surfaces(s, x));
-    if (run_force_failed(s)) return reduce_status(s->model->ranks, run_force_failure(s), 0.0);
+    if (run_force_failed(s)) return run_force_failure(s);
     body_contact_forget(s); /* what it has stored is lost to friction, and not part of the change */
     put(s, x, v, s->frame);
     return set_motion_begin_anew(s);

@@ -16,6 +16,7 @@
 #include "simulation/breaking.h"
 #include "simulation/checkpoint.h"
 #include "simulation/led_run.h"
+#include "simulation/likeness.h"
 #include "simulation/options.h"
 #include "simulation/query.h"
 #include "simulation/right_hand_side.h"
@@ -128,7 +129,6 @@ static dem_status check_shared(const dem_simulation *s)
     CHECK(o->bodies == DEM_BODIES_NONE || s->model->touching != NULL, DEM_ERROR_ARGUMENT,
           "bodies touch in a model of which ranks share no surfaces: a body alone without obstacles does not touch "
           "itself yet");
-    CHECK(o->force == NULL, DEM_ERROR_ARGUMENT, "there is no external force on a model that ranks share yet");
     return DEM_OK;
 }
 
@@ -152,7 +152,7 @@ static dem_status set_up(dem_simulation *s)
                                                   model->domain, model->obstacles.n),
                       0.0));
     s->options.boundaries = NULL;
-    TRY(external_force_create(&s->external, o, s->layout.dim, model->lattice.n_nodes));
+    TRY(external_force_create(&s->external, o, s->layout.dim, model->lattice.n_nodes, model->domain));
     TRY(held_forces_create(&s->held_forces, &s->boundaries, s->external, &s->layout));
     TRY(options_fill(&s->options, model, &s->boundaries));
     TRY(body_contact_create(s));
@@ -168,6 +168,7 @@ static dem_status set_up(dem_simulation *s)
     s->options.kernel = s->kernel.kind;
     TRY(survey_create(s->survey, &s->kernel));
     stress_field_create(s->field, &s->kernel);
+    TRY(likeness_check_motions(s, 0.0));
     const contact_rule rule = rule_of(s);
     TRY(automaton_create(&s->automaton, &s->forces, &rule));
     TRY(reduce_status(s->model->ranks, automaton_check_start(&s->automaton, 0.0, s->y), 0.0));
@@ -208,8 +209,9 @@ static dem_status resume(dem_simulation *s, const dem_checkpoint *checkpoint)
         TRY(restore_part(s, checkpoint));
     query_at(s, s->t, s->y);
     const dem_status status = query_ask(s);
-    if (run_force_failed(s)) return reduce_status(s->model->ranks, run_force_failure(s), 0.0);
+    if (run_force_failed(s)) return run_force_failure(s);
     TRY(status);
+    TRY(likeness_check_force(s));
     s->started = s->has_checkpoint = true;
     return checkpoint != NULL ? checkpoint_entries_copy(s->checkpoint, checkpoint) : DEM_OK;
 }

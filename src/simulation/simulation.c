@@ -16,6 +16,7 @@
 #include "simulation/breaking.h"
 #include "simulation/checkpoint.h"
 #include "simulation/led_run.h"
+#include "simulation/likeness.h"
 #include "simulation/pausing.h"
 #include "simulation/query.h"
 #include "simulation/shared_checkpoint.h"
@@ -91,9 +92,8 @@ static dem_status report_events(dem_simulation *s, double t)
     if (!observers_want_breaks(&s->observers)) s->n_known = s->n_broken;
     while (fmin(next_event(s), next_break(s)) <= t) {
         const bool contact = next_event(s) <= next_break(s);
-        const dem_status reported = contact ? report_one_event(s) : report_one_break(s);
-        if (run_force_failed(s)) return reported;
-        status = status_first(status, reported);
+        status = status_first(status, contact ? report_one_event(s) : report_one_break(s));
+        if (run_force_failed(s)) break;
     }
     return reduce_status(s->model->ranks, status, 0.0);
 }
@@ -223,7 +223,7 @@ static dem_status roll_back(dem_simulation *s)
         status = integrator_restart(&s->integrator, s->t, s->y);
     s->has_rollback = false;
     status = status_first(status, body_contact_follow(s, s->y));
-    status = status_first(status, reduce_status(s->model->ranks, run_force_failure(s), 0.0));
+    status = status_first(status, run_force_failure(s));
     query_at(s, s->t, s->y);
     query_ask_poses(s);
     if (run_force_failed(s)) {
@@ -288,6 +288,7 @@ static dem_status unless_memory_lacked(const dem_simulation *s, dem_status statu
  * shorter step. Fixed steps cannot be shortened. */
 static dem_status take_step(dem_simulation *s)
 {
+    TRY(likeness_check_motions(s, s->t + s->options.max_step));
     for (int attempt = 1;; attempt++) {
         bool rooted;
         body_contact_begin_step(s);
@@ -449,6 +450,7 @@ static dem_status commit_step(dem_simulation *s)
 static dem_status start(dem_simulation *s)
 {
     const event_listener listener = {report_event, s};
+    TRY(likeness_check_force(s));
     TRY(reduce_status(s->model->ranks, breaking_begin(s), 0.0));
     TRY(body_contact_settle(s, s->y));
     const dem_status given = report_breaks(s, &s->given, 0), own = report_own_breaks(s, 0);

@@ -40,7 +40,10 @@ int attempt_evaluate(attempt *a, double t, const double *y, double *u, double *a
 {
     const ode_problem *p = a->problem;
     int flag = 0;
-    if (a->failed == ATTEMPT_NONE || p->domain == NULL) flag = p->derivative(t, y, u, accelerations, p->context);
+    if (a->failed == ATTEMPT_NONE || p->domain == NULL)
+        flag = p->derivative(t, y, u, accelerations, p->context);
+    else
+        p->domain->take_part(p->context);
     return note(a, flag, u, accelerations);
 }
 

@@ -41,6 +41,9 @@ typedef struct ode_domain {
     const unsigned char *is_own; /* [n_nodes] 0: a ghost, whose error is that of another rank */
     /** Puts into y what other ranks have of it. Called before every derivative; a fused step does so itself. */
     void (*fill_ghosts)(double *y, void *context);
+    /** Takes part, with nothing of its own, in what other ranks sum in a derivative that this rank leaves out after a
+     *  failure. */
+    void (*take_part)(void *context);
     /** Sets the message of a derivative that has failed. Collective.
      *  \param is_first  whether the last failure of this rank is one of those that a single process would have met
      *  first */

@@ -25,22 +25,11 @@ static dem_simulation *start(const dem_model *model, const dem_options *options)
 
 /* ---- models ---- */
 
-static dem_status stay(void *context, double t, dem_pose *pose)
-{
-    (void)context;
-    (void)t;
-    (void)pose;
-    return DEM_OK;
-}
-
 static void refuse_lattices(const dem_lattice *l, bool fails, int n_ranks)
 {
     dem_model *model = NULL;
     const double mass = l->mass[3], points[] = {-1.0, -1.0, 1.0, -1.0};
     const dem_obstacle floor = {.struct_size = sizeof floor, .n_points = 2, .points = points};
-    dem_obstacle moved = floor;
-    moved.motion = stay;
-    moved.most_speed = moved.most_acceleration = 1.0;
     check_refusal(dem_model_create_mpi(&model, fails ? NULL : l, NULL, 0, MPI_COMM_WORLD), DEM_ERROR_ARGUMENT,
                   "lattice is NULL");
     if (fails) l->mass[3] = -1.0;
@@ -53,8 +42,48 @@ static void refuse_lattices(const dem_lattice *l, bool fails, int n_ranks)
     if (n_ranks > 1)
         check_refusal(dem_model_create_mpi(&model, l, &floor, fails, MPI_COMM_WORLD), DEM_ERROR_ARGUMENT,
                       "the lattices or obstacles of the ");
-    check_refusal(dem_model_create_mpi(&model, l, &moved, 1, MPI_COMM_WORLD), DEM_ERROR_MODEL, "motion a function");
     INSIST(model == NULL);
+}
+
+/* ---- functions of the program ---- */
+
+/* Somewhere else on the rank that fails. */
+static dem_status stay(void *context, double t, dem_pose *pose)
+{
+    (void)t;
+    pose->place[0] = *(const double *)context;
+    return DEM_OK;
+}
+
+static dem_status push(void *context, const dem_force_query *q, double *force)
+{
+    for (dem_index k = 0; k < 2 * q->n; k++) force[k] = *(const double *)context;
+    return DEM_OK;
+}
+
+static void refuse_functions(const dem_lattice *l, dem_options options, bool fails, int n_ranks)
+{
+    double place = fails ? 1e-9 : 0.0, points[] = {-1.0, -1.0, 1.0, -1.0};
+    const dem_obstacle floor = {.struct_size = sizeof floor,
+                                .n_points = 2,
+                                .points = points,
+                                .motion = stay,
+                                .motion_context = &place,
+                                .most_speed = 1.0,
+                                .most_acceleration = 1.0};
+    dem_model *model = NULL;
+    dem_simulation *s = NULL;
+    if (n_ranks == 1) return;
+    INSIST(dem_model_create_mpi(&model, l, &floor, 1, MPI_COMM_WORLD) == DEM_OK);
+    check_refusal(dem_simulation_create(&s, model, &options), DEM_ERROR_ARGUMENT, "moves obstacle 0 says otherwise");
+    dem_model_destroy(model);
+    INSIST(dem_model_create_mpi(&model, l, NULL, 0, MPI_COMM_WORLD) == DEM_OK);
+    options.force = push;
+    options.force_context = &place;
+    s = start(model, &options);
+    check_refusal(dem_simulation_advance(s, 1e-3), DEM_ERROR_ARGUMENT, "is another one on rank ");
+    dem_simulation_destroy(s);
+    dem_model_destroy(model);
 }
 
 /* ---- simulations ---- */
@@ -130,6 +159,7 @@ int main(int argc, char **argv)
     dem_model *model = NULL;
     refuse_lattices(&l, fails, t.size);
     INSIST(dem_model_create_mpi(&model, &l, NULL, 0, MPI_COMM_WORLD) == DEM_OK);
+    refuse_functions(&l, options, fails, t.size);
     refuse_options(model, options, fails);
     stop(model, &options, fails);
     refuse_gathering(model, &options, l.n_nodes);

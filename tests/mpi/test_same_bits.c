@@ -141,7 +141,19 @@ static void share(const dem_lattice *l, const dem_obstacle *floor, const dem_opt
     free_run(&ranks);
 }
 
-/* A body that falls on a floor of which the edges of the body touch vertices, by both methods of contact. */
+/* It depends on a node's number, place and velocity, and on time. */
+static dem_status push(void *context, const dem_force_query *q, double *force)
+{
+    (void)context;
+    for (dem_index k = 0; k < q->n; k++) {
+        force[2 * k] = 10.0 * sin(1e4 * q->t + (double)q->nodes[k]) - 0.1 * q->v[2 * k];
+        force[2 * k + 1] = 100.0 * q->x[2 * k];
+    }
+    return DEM_OK;
+}
+
+/* A body that falls on a floor of which the edges of the body touch vertices, by both methods of contact, with a force
+ * in one. */
 static void fall(int rank)
 {
     const double points[] = {-0.1, 0.0, -0.004, 0.0005, 0.003, -0.0004, 0.009, 0.0, 0.1, 0.002};
@@ -158,6 +170,7 @@ static void fall(int rank)
         dem_options options = dem_options_default();
         options.checkpoint_steps = 0;
         options.contact = exact ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL;
+        if (!exact) options.force = push;
         share(&l, &floor, &options, rank);
     }
     dem_lattice_free(&l);

@@ -862,24 +862,6 @@ TEST(an_observer_of_one_rank_stops_all)
     close_scene(&s);
 }
 
-static dem_status push(void *context, const dem_force_query *query, double *force)
-{
-    (void)context;
-    (void)query;
-    (void)force;
-    return DEM_OK;
-}
-
-TEST(what_ranks_cannot_do_yet_is_refused)
-{
-    scene s;
-    open_scene(&s, 0, DEM_METHOD_FEHLBERG45);
-    s.options.force = push;
-    const refusal no_force = refuse(&s, -1, NULL);
-    assert_string_equal(no_force.messages[1], "there is no external force on a model that ranks share yet");
-    close_scene(&s);
-}
-
 /* ---- the same bits ---- */
 
 TEST(free_bodies_that_fold_have_the_bits_of_one_process)

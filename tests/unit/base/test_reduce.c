@@ -12,7 +12,7 @@ enum { MOST_RANKS = 7, N_TERMS = 700, TEXT = 64 };
 /* What each rank has found. */
 typedef struct results {
     double least, largest, with_nan, sum, sums[2], reported[2];
-    bool any, none;
+    bool any, none, alike, alike_but_one;
     dem_index count;
     array_ops_sum squares;
     dem_status fine, failed;
@@ -43,6 +43,8 @@ static void reduce_all(const ranks *r, void *context)
     of->with_nan = reduce_max(r, r->rank == r->size / 2 ? (double)NAN : 1.0);
     of->any = reduce_any(r, r->rank == r->size - 1);
     of->none = reduce_any(r, false);
+    of->alike = reduce_alike(r, 77);
+    of->alike_but_one = reduce_alike(r, r->rank == r->size - 1 ? 78 : 77);
     of->count = reduce_count(r, r->rank + 1);
     of->sum = reduce_sum(r, &sum);
     const exact_sum ranks_there = exact_sum_of(1.0);
@@ -71,6 +73,7 @@ TEST(every_rank_gets_the_same_whatever_the_shares)
             assert_true(all[k].least == -(double)n && all[k].largest == (double)n);
             assert_true(isnan(all[k].with_nan));
             assert_true(all[k].any && !all[k].none);
+            assert_true(all[k].alike && all[k].alike_but_one == (n == 1));
             assert_int_equal(all[k].count, n * (n + 1) / 2);
             assert_true(all[k].sum == exact_sum_value(&sum));
             assert_true(all[k].sums[0] == exact_sum_value(&sum) && all[k].sums[1] == (double)n);

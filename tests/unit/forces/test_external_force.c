@@ -42,7 +42,7 @@ static external_force *make(source *s)
     *s = (source){.bad = -1};
     options.force = answer;
     options.force_context = s;
-    assert_int_equal(external_force_create(&c, &options, dim, n_nodes), DEM_OK);
+    assert_int_equal(external_force_create(&c, &options, dim, n_nodes, NULL), DEM_OK);
     assert_non_null(c);
     return c;
 }
@@ -59,7 +59,7 @@ TEST_IN_BOTH(without_a_force_there_is_no_coupling)
 {
     const dem_options options = dem_options_default();
     external_force *c = (external_force *)1;
-    assert_int_equal(external_force_create(&c, &options, dim, n_nodes), DEM_OK);
+    assert_int_equal(external_force_create(&c, &options, dim, n_nodes, NULL), DEM_OK);
     assert_null(c);
     assert_false(external_force_failed(NULL));
     external_force_destroy(NULL);

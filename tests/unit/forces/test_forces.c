@@ -101,7 +101,7 @@ static void drive(body *b)
                                         .n_nodes = 1, .nodes = moved, .value = {0.0, 2.0}, .ramp = 2.0)};
     const dem_options options = {.force = wind};
     assert_ok(boundary_conditions_compile(&b->boundaries, list, 2, &b->model->lattice, NULL, 0));
-    assert_ok(external_force_create(&b->external, &options, 2, b->n));
+    assert_ok(external_force_create(&b->external, &options, 2, b->n, NULL));
     b->f.mass_damping = 30.0;
     b->f.boundaries = &b->boundaries;
     b->f.external = b->external;

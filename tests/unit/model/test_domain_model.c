@@ -335,18 +335,10 @@ TEST(rings_reach_as_far_as_the_correction_for_an_event)
         }
 }
 
-static dem_status stay(void *context, double t, dem_pose *out)
-{
-    (void)context;
-    (void)t;
-    (void)out;
-    return DEM_OK;
-}
-
-static void assert_refused(const dem_lattice *l, const dem_obstacle *o, dem_index n, const char *message)
+static void assert_refused(const dem_lattice *l, const char *message)
 {
     CLEANUP(free_memory) int32_t *owner = shared_owners(l, N_RANKS);
-    CLEANUP(free_model) dem_model *whole = support_model(l, o, n);
+    CLEANUP(free_model) dem_model *whole = support_model(l, NULL, 0);
     for (int deals = 0; deals < 2; deals++) {
         shared s = {.whole = whole, .owner = owner, .deals = deals};
         rank_threads_run(N_RANKS, create, &s);
@@ -360,12 +352,9 @@ static void assert_refused(const dem_lattice *l, const dem_obstacle *o, dem_inde
 TEST(what_ranks_cannot_share_is_refused)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
-    const dem_obstacle moved = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .motion = stay,
-                                     .most_speed = 1.0, .most_acceleration = 1.0);
-    assert_refused(&l, &moved, 1, "5 ranks cannot share a model with obstacles whose motion a function computes yet");
     l.strength = malloc((size_t)l.n_triangles * sizeof *l.strength);
     for (dem_index k = 0; k < l.n_triangles; k++) l.strength[k] = 1e5;
-    assert_refused(&l, NULL, 0, "5 ranks cannot share a model that may break yet");
+    assert_refused(&l, "5 ranks cannot share a model that may break yet");
 }
 
 /* One rank alone has no node: all hear of it. */

@@ -142,6 +142,11 @@ static dem_status go(const run *c, world *w, const ode_domain *d, outcome *o)
     return DEM_OK;
 }
 
+static void take_part(void *context)
+{
+    (void)context;
+}
+
 static void go_as_rank(const ranks *r, void *context)
 {
     run *c = context;
@@ -152,6 +157,7 @@ static void go_as_rank(const ranks *r, void *context)
                           .whole = {.dim = 2, .n_nodes = N, .n_rows = N},
                           .is_own = own,
                           .fill_ghosts = fill_ghosts,
+                          .take_part = take_part,
                           .name_failure = name_failure,
                           .wants_stop = wants_stop,
                           .stop = stop};
