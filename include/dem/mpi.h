@@ -35,8 +35,10 @@
  *  Functions of the program, external forces and motions of obstacles, are called on each rank, by that rank alone, and
  *  answer alike on all: dem_force and dem_motion say what they are asked. A failure of one is that of all ranks.
  *
- *  Ranks cannot share yet, and refuse: what may break, a body alone without obstacles that touches itself,
- *  trajectories, overlaps of bodies and their fragments.
+ *  Ranks cannot share yet, and refuse: what may break; a body alone without obstacles that touches itself
+ *  (DEM_ERROR_ARGUMENT by dem_simulation_create()), as the model would have to be shared for it before options are
+ *  known; trajectories, overlaps of bodies and their fragments, which are of the whole lattice at once, that no rank
+ *  keeps. `mpirun dem_batch` has all but the first: there rank 0 knows the options, and has the whole besides its part.
  *
  *  MPI is initialised and finalised by the program: models are created after the one and destroyed before the other.
  *  All calls come from one thread, that of MPI_Init() or MPI_Init_thread() unless MPI has MPI_THREAD_SERIALIZED. A
