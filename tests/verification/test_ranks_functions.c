@@ -8,8 +8,8 @@
 #include "scattered.h"
 #include "support.h"
 
+#include "base/checkpoint_entries.h"
 #include "domain/partition.h"
-#include "harness/message.h"
 #include "harness/rank_threads.h"
 #include "model/domain_model.h"
 #include "simulation/led_run.h"
@@ -148,12 +148,14 @@ typedef struct outcome {
     view stops[N_STOPS];
     double *x, *v; /* [n_nodes][2] at the end, of the whole */
     dem_index n_events;
-    uint64_t events;    /* a hash of all that is said of them */
-    dem_index ghosts;   /* that the force was asked for */
-    dem_status status;  /* of the first advance that has failed; then the run goes on with functions that do not */
-    double failed_t;    /* s, of the state after it */
-    char message[TEXT]; /* of the same */
-    char failure[TEXT]; /* that is none of the functions; empty: none */
+    uint64_t events;      /* a hash of all that is said of them */
+    dem_index ghosts;     /* that the force was asked for */
+    dem_status status;    /* of the first advance that has failed; then the run goes on with functions that do not */
+    double failed_t;      /* s, of the state after it */
+    char message[TEXT];   /* of the same */
+    char failure[TEXT];   /* that is none of the functions; empty: none */
+    dem_checkpoint *kept; /* the third one; NULL: elsewhere than on rank 0 */
+    int n_checkpoints;
 } outcome;
 
 static void make_outcome(outcome *o, dem_index n)
@@ -163,6 +165,7 @@ static void make_outcome(outcome *o, dem_index n)
 
 static void free_outcome(outcome *o)
 {
+    dem_checkpoint_destroy(o->kept);
     free(o->x);
     free(o->v);
 }
@@ -176,6 +179,14 @@ static dem_status note_event(void *context, const dem_simulation *s, const dem_e
     for (size_t k = 0; k < sizeof *event; k++) o->events = (o->events ^ bytes[k]) * 1099511628211u;
     o->n_events++;
     return DEM_OK;
+}
+
+static dem_status keep_checkpoint(void *context, const dem_simulation *s, dem_checkpoint *checkpoint)
+{
+    outcome *o = context;
+    if (++o->n_checkpoints != 3 || dem_simulation_model(s)->ranks->rank > 0) return DEM_OK;
+    assert_ok(dem_checkpoint_create(&o->kept));
+    return checkpoint_entries_copy(o->kept, checkpoint);
 }
 
 /* Ranks write the rows of their own nodes. */
@@ -218,18 +229,21 @@ static dem_status advance(dem_simulation *s, field *f, double t, outcome *o)
 }
 
 /* With functions that have the context of a field of this rank.
+   \param from   a checkpoint, of rank 0; NULL: the run begins
    \param leads  ranks that make the run of rank 0, which has the whole; NULL: it makes its own */
-static void run(const dem_model *model, const scene *sc, field *f, const ranks *leads, outcome *o)
+static void run(const dem_model *model, const scene *sc, field *f, const dem_checkpoint *from, const ranks *leads,
+                outcome *o)
 {
     dem_simulation *s = NULL;
     dem_options options = sc->options;
-    const dem_observer observer = SIZED(dem_observer, .context = o, .event = note_event);
+    const dem_observer observer = SIZED(dem_observer, .context = o, .event = note_event, .checkpoint = keep_checkpoint);
     options.force_context = f;
     f->domain = model->domain;
-    dem_status status = dem_simulation_create(&s, model, &options);
+    dem_status status =
+        from != NULL ? dem_simulation_resume(&s, model, &options, from) : dem_simulation_create(&s, model, &options);
     if (status == DEM_OK && leads != NULL) status = dem_private_lead(s, leads, &options, NULL);
     if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
-    for (int k = 0; k < N_STOPS && status == DEM_OK; k++) {
+    for (int k = from != NULL ? N_STOPS - 1 : 0; k < N_STOPS && status == DEM_OK; k++) {
         status = advance(s, f, t_end * (k + 1) / N_STOPS, o);
         if (status == DEM_OK) status = look(s, o, k);
     }
@@ -242,6 +256,7 @@ static void run(const dem_model *model, const scene *sc, field *f, const ranks *
 typedef struct shared_run {
     const scene *scene;
     const int32_t *owner;
+    const dem_checkpoint *from;
     outcome *outcomes; /* [ranks] whose x and v are one */
     int other;         /* rank whose functions answer otherwise; -1: none */
 } shared_run;
@@ -260,7 +275,7 @@ static void run_rank(const ranks *r, void *context)
     if (r->rank == c->other) f.shift = 1e-6;
     dem_status status = dem_model_create(&whole, &all->lattice, &floor, all->obstacles.n);
     if (status == DEM_OK) status = domain_model_create(&part, r, whole, &(domain_model_shares){.owner = c->owner});
-    if (status == DEM_OK) run(part, c->scene, &f, NULL, o);
+    if (status == DEM_OK) run(part, c->scene, &f, c->from, NULL, o);
     if (status != DEM_OK) (void)snprintf(o->failure, TEXT, "%s", dem_status_message());
     dem_model_destroy(part);
     dem_model_destroy(whole);
@@ -289,7 +304,7 @@ static void share(const scene *s, int n_ranks, const int32_t *owner, const outco
     outcome all[MOST_RANKS];
     make_outcome(&all[0], n);
     for (int k = 1; k < n_ranks; k++) all[k] = all[0];
-    shared_run c = {s, owner, all, -1};
+    shared_run c = {.scene = s, .owner = owner, .outcomes = all, .other = -1};
     rank_threads_run(n_ranks, run_rank, &c);
     for (int k = 0; k < n_ranks; k++) assert_same_outcome(&all[k], whole, n);
     free_outcome(&all[0]);
@@ -304,7 +319,7 @@ static outcome check_scene(scene *s, int n_numbers, const int *numbers)
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     make_outcome(&whole, l->n_nodes);
     field f = s->field;
-    run(s->model, s, &f, NULL, &whole);
+    run(s->model, s, &f, NULL, NULL, &whole);
     assert_string_equal(whole.failure, "");
     for (int p = 0; p < n_numbers; p++) {
         scatter(l, 4.1 * spacing, numbers[p], owner);
@@ -356,6 +371,38 @@ TEST(an_obstacle_that_a_function_moves_has_the_same_bits)
     check(SHAKEN);
 }
 
+/* From a checkpoint of one process, with a body that is held and with an obstacle that moves. */
+TEST(ranks_go_on_with_functions_of_the_program)
+{
+    enum { N_RANKS = 3 };
+    static const kind kinds[] = {HELD, SHAKEN};
+    for (int k = 0; k < 2; k++) {
+        scene s;
+        outcome whole, all[N_RANKS];
+        open_scene(&s, kinds[k], DEM_METHOD_FEHLBERG45, DEM_CONTACT_EXACT);
+        const dem_lattice *l = dem_model_lattice(s.model);
+        const size_t size = 2 * (size_t)l->n_nodes * sizeof *whole.x;
+        CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
+        make_outcome(&whole, l->n_nodes);
+        make_outcome(&all[0], l->n_nodes);
+        for (int q = 1; q < N_RANKS; q++) all[q] = all[0];
+        run(s.model, &s, &s.field, NULL, NULL, &whole);
+        assert_non_null(whole.kept);
+        scatter(l, 4.1 * spacing, N_RANKS, owner);
+        shared_run c = {.scene = &s, .owner = owner, .from = whole.kept, .outcomes = all, .other = -1};
+        rank_threads_run(N_RANKS, run_rank, &c);
+        for (int q = 0; q < N_RANKS; q++) {
+            assert_string_equal(all[q].failure, "");
+            assert_memory_equal(&all[q].stops[N_STOPS - 1], &whole.stops[N_STOPS - 1], sizeof whole.stops[0]);
+        }
+        assert_memory_equal(all[0].x, whole.x, size);
+        assert_memory_equal(all[0].v, whole.v, size);
+        free_outcome(&whole);
+        free_outcome(&all[0]);
+        close_scene(&s);
+    }
+}
+
 /* ---- failures ---- */
 
 static void fail_once(kind what, dem_method method, dem_index bad, const char *message)
@@ -398,7 +445,7 @@ static void find_out(kind what, int other, char *message)
     assert_ok(partition_bisect(l, N_RANKS, owner));
     make_outcome(&all[0], l->n_nodes);
     for (int k = 1; k < N_RANKS; k++) all[k] = all[0];
-    rank_threads_run(N_RANKS, run_rank, &(shared_run){&s, owner, all, other});
+    rank_threads_run(N_RANKS, run_rank, &(shared_run){.scene = &s, .owner = owner, .outcomes = all, .other = other});
     for (int k = 1; k < N_RANKS; k++) assert_string_equal(all[k].failure, all[0].failure);
     (void)snprintf(message, TEXT, "%s", all[0].failure);
     free_outcome(&all[0]);
@@ -430,7 +477,7 @@ static void lead_as_rank(const ranks *r, void *context)
         (void)dem_private_follow(r);
         return;
     }
-    run(c->scene->model, c->scene, &f, r, c->outcomes);
+    run(c->scene->model, c->scene, &f, NULL, r, c->outcomes);
     dem_private_dismiss(r, 0);
 }
 
