@@ -597,15 +597,16 @@ static dem_status talk_through(talk *t, const dem_model *model)
     return status;
 }
 
+/* Rank 0 tells of it when all are through. */
 static void talk_as_rank(const ranks *r, void *context)
 {
-    talk other = *(talk *)context, *t = r->rank == 0 ? context : &other;
+    talk *t = context, own = {.scene = t->scene, .owner = t->owner, .ranks = r, .end = t->end};
     dem_model *model = NULL;
-    t->ranks = r;
-    dem_status status = domain_model_create(&model, r, t->scene->model, &(domain_model_shares){.owner = t->owner});
-    if (status == DEM_OK) status = talk_through(t, model);
-    if (status != DEM_OK) (void)snprintf(t->failure, TEXT, "%s", dem_status_message());
+    dem_status status = domain_model_create(&model, r, own.scene->model, &(domain_model_shares){.owner = own.owner});
+    if (status == DEM_OK) status = talk_through(&own, model);
+    if (status != DEM_OK) (void)snprintf(own.failure, TEXT, "%s", dem_status_message());
     dem_model_destroy(model);
+    if (r->rank == 0) *t = own;
 }
 
 /* On three ranks. */

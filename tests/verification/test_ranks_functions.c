@@ -123,6 +123,10 @@ static void open_scene(scene *s, kind what, dem_method method, dem_contact_metho
     s->options.method = method;
     s->options.contact = contact;
     s->options.checkpoint_steps = 20;
+    if (method == DEM_METHOD_DOPRI45) { /* a team of threads on each rank, too */
+        s->options.threads = 2;
+        s->options.thread_nodes = 20;
+    }
     if (what == DAMPED) s->options.mass_damping = 300.0;
     if (what != SHAKEN || contact == DEM_CONTACT_EXACT) s->options.force = push;
     s->options.force_context = &s->field;
