@@ -5,8 +5,9 @@
  *
  *  Each rank has a model and a simulation of its part: its own nodes; those near what may touch obstacles, on surfaces
  *  of bodies that may touch each other, and of rigid bodies, whoever owns them; and as ghosts those of other ranks that
- *  a spring or a triangle joins to one of these (dem_model_part()). What goes on is *collective*: all ranks make the
- *  same calls in the same order, with the same arguments, and wait for each other in them. These are
+ *  a spring or a triangle joins to one of these, in large parts further rings of them (dem_model_part()). What goes on
+ *  is *collective*: all ranks make the same calls in the same order, with the same arguments, and wait for each other
+ *  in them. These are
  *
  *      dem_model_create_mpi(), and dem_model_destroy() of such a model
  *      dem_simulation_create(), dem_simulation_resume(), dem_simulation_observe(), dem_simulation_advance()

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Each domain is found in the whole lattice without the others: what its rank sends to another one is what that one
- * expects, in the same order, as both go by the same rule. Own nodes that are next to common ones go to all ranks. */
+ * expects, in the same order, as both go by the same rule. Own nodes near common ones go to all ranks. */
 #include "domain/domain.h"
 
 #include <stdlib.h>
 
 #include "base/sorted.h"
 #include "base/status.h"
-#include "domain/adjacency.h"
 
 /* A node at the end of the domain, and a rank on the other side. */
 typedef struct border {
@@ -41,6 +40,7 @@ typedef struct borders {
 /* Own nodes that are ghosts of another rank, with that rank, and ghosts with theirs. */
 typedef struct draft {
     const domain_shares *shares;
+    const ghost_rings *rings;
     int rank;
     borders sent, received;
 } draft;
@@ -51,37 +51,21 @@ static void note(borders *b, int rank, dem_index node)
     b->n++;
 }
 
-static bool is_common(const domain_shares *s, dem_index i)
+/* Of the ghosts of all ranks this one's, and those that are own nodes here. */
+static void list_borders(draft *d)
 {
-    return s->is_common != NULL && s->is_common[i];
-}
-
-/* Node j is next to node i: it is a ghost where i is integrated and j is not. */
-static void join(draft *d, dem_index i, dem_index j)
-{
-    const domain_shares *s = d->shares;
-    const bool everywhere = is_common(s, i);
-    const int first = everywhere ? 0 : s->owner[i], end = everywhere ? s->n_ranks : first + 1;
-    if (is_common(s, j)) return;
-    for (int rank = first; rank < end && s->owner[j] == d->rank; rank++)
-        if (rank != d->rank) note(&d->sent, rank, j);
-    if (s->owner[j] != d->rank && first <= d->rank && d->rank < end) note(&d->received, s->owner[j], j);
-}
-
-static void join_all(draft *d, const dem_lattice *l)
-{
-    dem_index pair[2];
     d->sent.n = d->received.n = 0;
-    for (dem_index k = 0; k < adjacency_pairs(l); k++) {
-        adjacency_pair(l, k, pair);
-        join(d, pair[0], pair[1]);
-        join(d, pair[1], pair[0]);
+    for (dem_index k = 0; k < d->rings->n; k++) {
+        const ghost *g = &d->rings->list[k];
+        const int owner = d->shares->owner[g->node];
+        if (g->rank == d->rank) note(&d->received, owner, g->node);
+        if (owner == d->rank) note(&d->sent, g->rank, g->node);
     }
 }
 
 static bool is_integrated(const draft *d, dem_index i)
 {
-    return d->shares->owner[i] == d->rank || is_common(d->shares, i);
+    return domain_shares_have(d->shares, d->rank, i);
 }
 
 /* `local` has the number in the domain of each node of the whole lattice; -1: it is not there. */
@@ -99,13 +83,18 @@ static dem_status number_nodes(domain *d, const draft *from, dem_index *local)
     d->number = malloc((size_t)d->n_nodes * sizeof *d->number);
     d->is_own = malloc((size_t)d->n_nodes);
     d->is_ghost = malloc((size_t)d->n_nodes);
-    CHECK(d->number && d->is_own && d->is_ghost, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes",
-          (long long)d->n_nodes);
+    d->is_outer = calloc((size_t)d->n_nodes, 1);
+    CHECK(d->number && d->is_own && d->is_ghost && d->is_outer, DEM_ERROR_MEMORY,
+          "out of memory for a domain of %lld nodes", (long long)d->n_nodes);
     for (dem_index i = 0; i < d->n_whole; i++) {
         if (local[i] < 0) continue;
         d->number[local[i]] = i;
         d->is_own[local[i]] = from->shares->owner[i] == from->rank;
         d->is_ghost[local[i]] = !is_integrated(from, i);
+    }
+    for (dem_index k = 0; k < from->rings->n; k++) {
+        const ghost *g = &from->rings->list[k];
+        if (g->rank == from->rank) d->is_outer[local[g->node]] = g->ring == from->rings->n_rings;
     }
     return DEM_OK;
 }
@@ -144,25 +133,27 @@ static dem_status list_neighbours(domain *d, const draft *from, const dem_index 
     return DEM_OK;
 }
 
-static dem_status fill(domain *d, draft *from, const dem_lattice *whole, dem_index *local)
+static dem_status fill(domain *d, draft *from, dem_index *local)
 {
     borders *const both[] = {&from->sent, &from->received};
-    join_all(from, whole);
+    list_borders(from);
     for (int k = 0; k < 2; k++) both[k]->list = malloc(((size_t)both[k]->n + 1) * sizeof *both[k]->list);
     CHECK(local && from->sent.list && from->received.list, DEM_ERROR_MEMORY, "out of memory for the domain of rank %d",
           from->rank);
-    join_all(from, whole);
+    list_borders(from);
+    d->n_rings = from->rings->n_rings;
     for (int k = 0; k < 2; k++) both[k]->n = sort_borders(both[k]->list, both[k]->n);
     TRY(number_nodes(d, from, local));
     return list_neighbours(d, from, local);
 }
 
-dem_status domain_create(domain *out, const dem_lattice *whole, const domain_shares *shares, int rank)
+dem_status domain_create_within(domain *out, const dem_lattice *whole, const domain_shares *shares,
+                                const ghost_rings *rings, int rank)
 {
     domain d = {.n_whole = whole->n_nodes};
-    draft from = {.shares = shares, .rank = rank};
+    draft from = {.shares = shares, .rings = rings, .rank = rank};
     dem_index *local = malloc((size_t)whole->n_nodes * sizeof *local);
-    const dem_status status = fill(&d, &from, whole, local);
+    const dem_status status = fill(&d, &from, local);
     free(local);
     free(from.sent.list);
     free(from.received.list);
@@ -170,6 +161,15 @@ dem_status domain_create(domain *out, const dem_lattice *whole, const domain_sha
         *out = d;
     else
         domain_free(&d);
+    return status;
+}
+
+dem_status domain_create(domain *out, const dem_lattice *whole, const domain_shares *shares, int rank)
+{
+    ghost_rings rings = {0};
+    dem_status status = ghost_rings_find(&rings, whole, shares);
+    if (status == DEM_OK) status = domain_create_within(out, whole, shares, &rings, rank);
+    ghost_rings_free(&rings);
     return status;
 }
 
@@ -184,6 +184,7 @@ void domain_free(domain *d)
     free(d->spring);
     free(d->is_own);
     free(d->is_ghost);
+    free(d->is_outer);
     *d = (domain){0};
 }
 

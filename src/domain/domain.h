@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The nodes of a lattice that one rank has: its own ones; common ones (domain/common_nodes.h), which it integrates too,
- * whoever owns them; and as ghosts those of other ranks that are next to one of these, by a spring or a triangle. All
- * stand together in ascending order of their numbers in the whole lattice, so that whatever goes by the order of nodes,
- * springs or triangles has the order of the whole. */
+ * whoever owns them; and as ghosts those of other ranks that are next to one of these, by a spring or a triangle, or in
+ * further rings next to ghosts. All stand together in ascending order of their numbers in the whole lattice, so that
+ * whatever goes by the order of nodes, springs or triangles has the order of the whole. */
 #ifndef DEM_DOMAIN_DOMAIN_H
 #define DEM_DOMAIN_DOMAIN_H
 
 #include <stdbool.h>
 
 #include <dem/dem.h>
+
+#include "domain/ghost_rings.h"
 
 /** Another rank that has ghosts of own nodes, or own nodes that are ghosts here. */
 typedef struct domain_neighbour {
@@ -26,20 +28,19 @@ typedef struct domain {
     dem_index *spring;       /* [springs of the domain] their numbers in the whole lattice, ascending */
     unsigned char *is_own;   /* [n_nodes] 1: an own node, which counts here */
     unsigned char *is_ghost; /* [n_nodes] 1: what it does comes from its owner; else it is integrated here */
+    unsigned char *is_outer; /* [n_nodes] 1: a ghost of the last ring: some of its neighbours are not here */
+    int n_rings;             /* of ghosts */
     int n_neighbours;
     domain_neighbour *neighbours; /* [n_neighbours] by rank */
 } domain;
 
-/** How the nodes of a lattice are shared out. */
-typedef struct domain_shares {
-    int n_ranks;
-    const int32_t *owner;           /* [n_nodes] the rank of each node */
-    const unsigned char *is_common; /* [n_nodes] not 0: all ranks integrate it; NULL: none is */
-} domain_shares;
-
 /** Finds the domain of a rank in a lattice whose node numbers are known to be valid. Free with domain_free().
  *  \return DEM_ERROR_MODEL if the rank owns no node, DEM_ERROR_MEMORY */
 dem_status domain_create(domain *out, const dem_lattice *whole, const domain_shares *shares, int rank);
+
+/** The same where the ghosts of all ranks are known. */
+dem_status domain_create_within(domain *out, const dem_lattice *whole, const domain_shares *shares,
+                                const ghost_rings *rings, int rank);
 void domain_free(domain *d);
 
 /** The number in the domain of a node that is integrated here, of this number in the whole lattice; -1: it is not. NULL

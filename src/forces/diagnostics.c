@@ -170,7 +170,8 @@ double diagnostics_residual(const forces *f, const double *x, const double *v, c
     double largest = 0.0;
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
         const vec2 without_drag = vec2_along(vec2_at(a, i), f->mass_damping, vec2_at(v, i));
-        if (model->inverse_mass[i] > 0.0) largest = fmax(largest, model->lattice.mass[i] * vec2_norm(without_drag));
+        if (model->inverse_mass[i] > 0.0 && domain_owns(model->domain, i))
+            largest = fmax(largest, model->lattice.mass[i] * vec2_norm(without_drag));
     }
     largest = reduce_max(model->ranks, largest);
     const double scale = reduce_max(model->ranks, largest_force(f, x));

@@ -3,9 +3,10 @@
  * neighbours of its own nodes: that is taken from the model of the whole. These are its scales; the boundary, as a side
  * whose other triangle belongs to another rank only is none; and the shares of springs in stresses, as a side opposite
  * to an own node may have its other triangle elsewhere. Orders of nodes, springs and triangles are those of the whole,
- * so that sums over a row have the same bits. A ghost has the inverse mass 0: its row is not complete, and what it does
- * comes from its owner. All that is taken from the whole, with the lattice, is the cut of a domain, which may be made
- * on rank 0 and sent (model/domain_message.h); the rest is compiled from it alone.
+ * so that sums over a row have the same bits. A ghost of the last ring has the inverse mass 0, as its row is not
+ * complete. What ghosts do comes from their owners, but several rings of them can be integrated here through a step.
+ * All that is taken from the whole, with the lattice, is the cut of a domain, which may be made on rank 0 and sent
+ * (model/domain_message.h); the rest is compiled from it alone.
  *
  * All ranks have in common
  * - where there are obstacles what may touch them;
@@ -25,6 +26,7 @@
 #include "base/sorted.h"
 #include "base/status.h"
 #include "domain/common_nodes.h"
+#include "domain/ghost_rings.h"
 #include "lattice/lattice.h"
 #include "lattice/lattice_cut.h"
 #include "model/domain_message.h"
@@ -95,14 +97,16 @@ static dem_status cut_lattice(dem_model *m, const dem_lattice *whole, const plac
 
 typedef struct whole_lattice {
     const dem_model *model;
-    const domain_model_shares *shares;
     touching_bodies bodies;
     unsigned char *is_common; /* [n_nodes] */
+    domain_shares shares;
+    ghost_rings rings; /* of all ranks */
 } whole_lattice;
 
 static void close_whole(whole_lattice *w)
 {
     touching_bodies_free(&w->bodies);
+    ghost_rings_free(&w->rings);
     free(w->is_common);
 }
 
@@ -123,14 +127,39 @@ static void find_common(const dem_model *whole, const mesh_boundary *boundary, u
     if (has_events) common_nodes_add_rings(l, domain_model_rings(l), is_common);
 }
 
-static dem_status open_whole(whole_lattice *w, const dem_model *model, const domain_model_shares *shares)
+/* Where springs are damped accelerations follow from velocities of neighbours, so that a step would need twice as many
+ * rings. Where something may break it does so on other ranks, too. */
+static bool may_have_rings(const dem_lattice *l)
 {
-    *w = (whole_lattice){.model = model, .shares = shares};
+    return l->viscosity == NULL && l->strength == NULL && l->critical_stretch == NULL &&
+           l->compressive_strength == NULL;
+}
+
+/* Further rings are integrated on several ranks: they must not be many beside the nodes that there are. With less nodes
+ * a rank's state is in the second cache, and stages need no wave: there exchanges take no longer than the rings do. */
+static domain_shares shares_of(const ranks *r, const dem_model *whole, const domain_model_shares *s,
+                               const unsigned char *is_common)
+{
+    enum { STEP_RINGS = 3, PART = 8, LEAST_NODES = 12000 }; /* the rings of a step of Fehlberg's pair; of a rank */
+    const dem_index n = whole->lattice.n_nodes;
+    domain_shares shares = {
+        .n_ranks = r->size, .owner = s->owner, .is_common = is_common, .n_rings = s->n_rings, .most_ghosts = INT64_MAX};
+    if (s->n_rings > 0) return shares;
+    shares.n_rings = n >= (dem_index)LEAST_NODES * r->size && may_have_rings(&whole->lattice) ? STEP_RINGS : 1;
+    shares.most_ghosts = n / PART;
+    return shares;
+}
+
+static dem_status open_whole(whole_lattice *w, const ranks *r, const dem_model *model,
+                             const domain_model_shares *shares)
+{
+    *w = (whole_lattice){.model = model};
     TRY(touching_bodies_create(&w->bodies, &model->lattice));
     w->is_common = lattice_zeros(model->lattice.n_nodes, sizeof *w->is_common);
     CHECK_MEMORY(w->is_common);
     find_common(model, shares->touching ? &w->bodies.boundary : NULL, w->is_common);
-    return DEM_OK;
+    w->shares = shares_of(r, model, shares, w->is_common);
+    return ghost_rings_find(&w->rings, &model->lattice, &w->shares);
 }
 
 /* ---- what is cut ---- */
@@ -198,7 +227,7 @@ static dem_status cut_nodes(dem_model *m, const dem_model *whole)
     m->inverse_mass = lattice_zeros(d->n_nodes, sizeof *m->inverse_mass);
     CHECK_MEMORY(m->inverse_mass);
     for (dem_index i = 0; i < d->n_nodes; i++)
-        m->inverse_mass[i] = d->is_ghost[i] ? 0.0 : whole->inverse_mass[d->number[i]];
+        m->inverse_mass[i] = d->is_outer[i] ? 0.0 : whole->inverse_mass[d->number[i]];
     return DEM_OK;
 }
 
@@ -244,14 +273,13 @@ static dem_status cut_parts(domain_cut *c, const whole_lattice *w, const places 
 }
 
 /* For a rank, which need not be this one. */
-static dem_status cut(domain_cut *c, const whole_lattice *w, int n_ranks, int rank)
+static dem_status cut(domain_cut *c, const whole_lattice *w, int rank)
 {
     dem_model *m = c->model;
     places p = {0};
-    const domain_shares shares = {n_ranks, w->shares->owner, w->is_common};
     m->domain = calloc(1, sizeof *m->domain);
     CHECK_MEMORY(m->domain);
-    TRY(domain_create(m->domain, &w->model->lattice, &shares, rank));
+    TRY(domain_create_within(m->domain, &w->model->lattice, &w->shares, &w->rings, rank));
     dem_status status = find_places(&p, m->domain, &w->model->lattice);
     if (status == DEM_OK) status = cut_parts(c, w, &p);
     free_places(&p);
@@ -323,9 +351,9 @@ static dem_status finish(dem_model **out, const ranks *r, domain_cut *c, dem_sta
 static dem_status create(domain_cut *c, const ranks *r, const dem_model *model, const domain_model_shares *shares)
 {
     whole_lattice w;
-    dem_status status = open_whole(&w, model, shares);
+    dem_status status = open_whole(&w, r, model, shares);
     if (status == DEM_OK) status = open_cut(c);
-    if (status == DEM_OK) status = cut(c, &w, r->size, r->rank);
+    if (status == DEM_OK) status = cut(c, &w, r->rank);
     close_whole(&w);
     TRY(status);
     return compile(c, model->obstacles.list, model->obstacles.n, shares->touching);
@@ -347,7 +375,7 @@ static dem_status deal_one(domain_cut *own, const ranks *r, const whole_lattice 
     domain_cut other = {0}, *const c = r->rank == 0 ? &other : own;
     const bool takes_part = r->rank == 0 || r->rank == to;
     dem_status status = takes_part ? open_cut(c) : DEM_OK;
-    if (status == DEM_OK && r->rank == 0) status = cut(c, w, r->size, to);
+    if (status == DEM_OK && r->rank == 0) status = cut(c, w, to);
     status = reduce_status(r, status, 0.0);
     if (status == DEM_OK) status = domain_message_send(r, to, takes_part ? c : NULL);
     close_cut(&other, false);
@@ -360,13 +388,13 @@ static dem_status deal_all(domain_cut *own, const ranks *r, const whole_lattice 
     for (int to = 1; to < r->size; to++) TRY(deal_one(own, r, w, to));
     if (r->rank > 0) return DEM_OK;
     TRY(open_cut(own));
-    return cut(own, w, r->size, 0);
+    return cut(own, w, 0);
 }
 
 static dem_status deal(domain_cut *own, const ranks *r, const dem_model *model, const domain_model_shares *shares)
 {
     whole_lattice w = {0};
-    dem_status status = r->rank == 0 ? open_whole(&w, model, shares) : DEM_OK;
+    dem_status status = r->rank == 0 ? open_whole(&w, r, model, shares) : DEM_OK;
     status = reduce_status(r, status, 0.0);
     if (status == DEM_OK) status = deal_all(own, r, &w);
     close_whole(&w);

@@ -10,11 +10,13 @@
 typedef struct domain_model_shares {
     const int32_t *owner; /* [n_nodes] the rank of each node */
     bool touching;        /* whether bodies may touch each other, or themselves: all ranks have their surfaces then */
+    int n_rings;          /* of ghosts; 0: as many as pay */
 } domain_model_shares;
 
 /** Cuts the model of a rank from one of the whole lattice, which may be destroyed afterwards. Own nodes have the
  *  masses, springs, triangles, surface edges and stresses of the whole: where the domain ends there is no boundary.
- *  Common nodes have the same but for stresses; rigid bodies have no others. Nothing accelerates ghosts. Collective.
+ *  Common nodes have the same but for stresses; rigid bodies have no others. Ghosts whose neighbours are all here are
+ *  accelerated, too, others are not. Collective.
  *  Borrows the ranks. Free with dem_model_destroy().
  *  \return DEM_ERROR_MODEL if a rank owns no node, or for a model with strengths, or obstacles whose motion a function
  *  computes, which several ranks cannot share yet; DEM_ERROR_MEMORY */

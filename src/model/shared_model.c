@@ -99,7 +99,9 @@ dem_status dem_private_share_model(dem_model **out, const dem_private_whole *who
     int32_t *owner = NULL;
     dem_status status = reduce_status(r, prepare(&compiled, &owner, whole, r->size), 0.0);
     if (status == DEM_OK)
-        status = share(out, r, compiled, &(domain_model_shares){owner, may_touch(compiled, whole->touching)});
+        status =
+            share(out, r, compiled,
+                  &(domain_model_shares){owner, may_touch(compiled, whole->touching), whole->has_one_ring ? 1 : 0});
     dem_model_destroy(compiled);
     free(owner);
     return status;
@@ -112,8 +114,8 @@ dem_status shared_model_deal(dem_model **out, const dem_model *whole, const dem_
     dem_status status = r->rank == 0 ? find_owners(&owner, &whole->lattice, about->weights, r->size) : DEM_OK;
     status = reduce_status(r, status, 0.0);
     if (status == DEM_OK)
-        status = domain_model_deal(out, r, whole, &(domain_model_shares){owner, touching}, about->obstacles,
-                                   about->n_obstacles);
+        status = domain_model_deal(out, r, whole, &(domain_model_shares){owner, touching, about->has_one_ring ? 1 : 0},
+                                   about->obstacles, about->n_obstacles);
     free(owner);
     if (status == DEM_OK) (*out)->ends_ranks = r->end != NULL;
     return status;

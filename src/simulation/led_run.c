@@ -71,12 +71,21 @@ static void drop(led_run *l)
     l->is_observed = false;
 }
 
+/* Ghosts are integrated through the stages of a step, and where nothing acts that is known to their owners alone. */
+static bool needs_one_ring(const dem_options *o)
+{
+    return o->method == DEM_METHOD_VERLET || o->n_boundaries > 0;
+}
+
 static dem_status create_part(led_run *l, const shared_problem *p, bool resumes, const dem_checkpoint *checkpoint)
 {
     const bool touching = p->options.bodies != DEM_BODIES_NONE;
-    const dem_private_whole about = {NULL, p->obstacles, p->n_obstacles,
+    const dem_private_whole about = {NULL,
+                                     p->obstacles,
+                                     p->n_obstacles,
                                      touching ? DEM_PRIVATE_TOUCHING_SOME : DEM_PRIVATE_TOUCHING_NONE,
-                                     l->balance.weights};
+                                     l->balance.weights,
+                                     needs_one_ring(&p->options)};
     TRY(shared_model_deal(&l->model, l->whole != NULL ? l->whole->model : NULL, &about, &l->ranks));
     if (resumes)
         TRY(dem_simulation_resume(&l->part, l->model, &p->options, checkpoint));

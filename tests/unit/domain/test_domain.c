@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* domain.c against the definition: own and common nodes, and those that a spring or a triangle joins to one. */
+/* domain.c and ghost_rings.c against the definition: own and common nodes, those that a spring or a triangle joins to
+ * one, and further rings of them. */
 #include "unit/domain/shared_lattice.h"
 
 #include <string.h>
@@ -14,16 +15,21 @@ static bool is_integrated(const domain_shares *s, int rank, dem_index i)
     return s->owner[i] == rank || (s->is_common != NULL && s->is_common[i]);
 }
 
-/* Whether a node is in the domain of a rank, by a look at all springs and triangles. */
-static void mark(const dem_lattice *l, const domain_shares *s, int rank, unsigned char *is_there)
+static void mark_next(unsigned char *mark, int ring, dem_index from, dem_index to)
 {
-    memset(is_there, 0, (size_t)l->n_nodes);
-    for (dem_index i = 0; i < l->n_nodes; i++) is_there[i] = is_integrated(s, rank, i);
-    for (dem_index k = 0; k < 2 * l->n_springs; k++)
-        if (is_integrated(s, rank, l->ends[k])) is_there[l->ends[k ^ 1]] = 1;
-    for (dem_index k = 0; k < 3 * l->n_triangles; k++)
-        for (int c = 0; c < 3 && is_integrated(s, rank, l->triangles[k]); c++)
-            is_there[l->triangles[k / 3 * 3 + c]] = 1;
+    if (mark[from] == ring && mark[to] == 0) mark[to] = (unsigned char)(ring + 1);
+}
+
+/* In which ring a node is in the domain of a rank, and one: by a look at all springs and triangles for each ring. */
+static void mark(const dem_lattice *l, const domain_shares *s, int rank, unsigned char *mark)
+{
+    memset(mark, 0, (size_t)l->n_nodes);
+    for (dem_index i = 0; i < l->n_nodes; i++) mark[i] = is_integrated(s, rank, i);
+    for (int ring = 1; ring <= (s->n_rings > 0 ? s->n_rings : 1); ring++) {
+        for (dem_index k = 0; k < 2 * l->n_springs; k++) mark_next(mark, ring, l->ends[k], l->ends[k ^ 1]);
+        for (dem_index k = 0; k < 3 * l->n_triangles; k++)
+            for (int c = 0; c < 3; c++) mark_next(mark, ring, l->triangles[k], l->triangles[k / 3 * 3 + c]);
+    }
 }
 
 static const domain_neighbour *find(const domain *d, int rank)
@@ -44,6 +50,7 @@ static void assert_nodes_are_right(const domain *d, const dem_lattice *l, const 
         assert_true(n < d->n_nodes && d->number[n] == i);
         assert_int_equal(d->is_own[n], s->owner[i] == rank);
         assert_int_equal(d->is_ghost[n], !is_integrated(s, rank, i));
+        assert_int_equal(d->is_outer[n], is_there[i] == d->n_rings + 1);
         n++;
     }
     assert_int_equal(d->n_nodes, n);
@@ -63,10 +70,10 @@ static void assert_lists_agree(const domain *from, int sender, const domain *to,
     }
 }
 
-static void check(const dem_lattice *l, const int32_t *owner, const unsigned char *is_common)
+static void check_rings(const dem_lattice *l, int n_rings, const int32_t *owner, const unsigned char *is_common)
 {
     domain d[N_RANKS];
-    const domain_shares shares = {N_RANKS, owner, is_common};
+    const domain_shares shares = {N_RANKS, owner, is_common, n_rings, l->n_nodes * N_RANKS};
     for (int k = 0; k < N_RANKS; k++) assert_ok(domain_create(&d[k], l, &shares, k));
     for (int k = 0; k < N_RANKS; k++) {
         assert_nodes_are_right(&d[k], l, &shares, k);
@@ -77,6 +84,12 @@ static void check(const dem_lattice *l, const int32_t *owner, const unsigned cha
         for (int q = 0; q < N_RANKS; q++) assert_lists_agree(&d[k], k, &d[q], q);
     }
     for (int k = 0; k < N_RANKS; k++) domain_free(&d[k]);
+}
+
+static void check(const dem_lattice *l, const int32_t *owner, const unsigned char *is_common)
+{
+    check_rings(l, 0, owner, is_common);
+    check_rings(l, 3, owner, is_common);
 }
 
 TEST(domains_have_own_nodes_and_those_next_to_them)
@@ -129,11 +142,30 @@ TEST(corners_of_triangles_are_ghosts_without_springs)
     const dem_lattice l = SIZED(dem_lattice, .dim = 2, .n_nodes = 3, .n_triangles = 1, .x = x, .triangles = corners);
     const int32_t owner[] = {0, 1, 1};
     domain d;
-    assert_ok(domain_create(&d, &l, &(domain_shares){2, owner, NULL}, 0));
+    assert_ok(domain_create(&d, &l, &(domain_shares){.n_ranks = 2, .owner = owner}, 0));
     assert_int_equal(d.n_nodes, 3);
     assert_int_equal(d.neighbours[0].n_received, 2);
     assert_int_equal(d.neighbours[0].n_sent, 1);
     domain_free(&d);
+}
+
+TEST(several_rings_that_have_too_many_ghosts_are_one)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+    CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
+    dem_index n_ghosts = 0;
+    domain d;
+    for (int k = 0; k < N_RANKS; k++) {
+        assert_ok(domain_create(&d, &l, &(domain_shares){N_RANKS, owner, NULL, 3, INT64_MAX}, k));
+        for (dem_index i = 0; i < d.n_nodes; i++) n_ghosts += d.is_ghost[i];
+        domain_free(&d);
+    }
+    for (int enough = 0; enough < 2; enough++)
+        for (int k = 0; k < N_RANKS; k++) {
+            assert_ok(domain_create(&d, &l, &(domain_shares){N_RANKS, owner, NULL, 3, n_ghosts - 1 + enough}, k));
+            assert_int_equal(d.n_rings, enough ? 3 : 1);
+            domain_free(&d);
+        }
 }
 
 TEST(a_rank_without_nodes_is_refused)
@@ -141,7 +173,7 @@ TEST(a_rank_without_nodes_is_refused)
     CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
     CLEANUP(free_memory) int32_t *owner = calloc((size_t)l.n_nodes, sizeof *owner);
     domain d;
-    assert_int_equal(domain_create(&d, &l, &(domain_shares){2, owner, NULL}, 1), DEM_ERROR_MODEL);
+    assert_int_equal(domain_create(&d, &l, &(domain_shares){.n_ranks = 2, .owner = owner}, 1), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(), "rank 1 has no node of its own");
 }
 

@@ -24,7 +24,8 @@ static void gather(const ranks *r, void *context)
 {
     gathering *g = context;
     domain d;
-    g->status[r->rank] = domain_create(&d, g->lattice, &(domain_shares){r->size, g->owner, NULL}, r->rank);
+    g->status[r->rank] =
+        domain_create(&d, g->lattice, &(domain_shares){.n_ranks = r->size, .owner = g->owner}, r->rank);
     if (g->status[r->rank] != DEM_OK) return;
     double *rows = calloc(DIM * (size_t)d.n_nodes, sizeof *rows);
     for (dem_index k = 0; k < DIM * d.n_nodes; k++)

@@ -38,7 +38,7 @@ static void swap_rows(const ranks *r, void *context)
     domain d;
     halo h;
     e->wrong[r->rank] = -1;
-    const domain_shares shares = {r->size, e->owner, NULL};
+    const domain_shares shares = {.n_ranks = r->size, .owner = e->owner};
     if (domain_create(&d, e->lattice, &shares, r->rank) != DEM_OK || halo_create(&h, r, &d, 2, 2) != DEM_OK) return;
     double *const arrays[] = {calloc(2 * (size_t)d.n_nodes, sizeof(double)),
                               calloc(2 * (size_t)d.n_nodes, sizeof(double))};

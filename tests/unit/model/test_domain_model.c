@@ -16,6 +16,7 @@ typedef struct shared {
     const dem_model *whole;
     const int32_t *owner;
     bool touching, deals; /* whether bodies may touch; whether rank 0 alone has the whole */
+    int n_rings;
     dem_model *models[N_RANKS];
     dem_status status[N_RANKS];
     char messages[N_RANKS][TEXT];
@@ -25,7 +26,7 @@ static void create(const ranks *r, void *context)
 {
     shared *s = context;
     const dem_model *whole = s->deals && r->rank > 0 ? NULL : s->whole;
-    const domain_model_shares shares = {whole != NULL ? s->owner : NULL, s->touching};
+    const domain_model_shares shares = {whole != NULL ? s->owner : NULL, s->touching, s->n_rings};
     dem_model **out = &s->models[r->rank];
     s->status[r->rank] =
         s->deals ? domain_model_deal(out, r, whole, &shares, s->whole->obstacles.list, s->whole->obstacles.n)
@@ -43,9 +44,9 @@ static void assert_same_rows(const dem_model *m, const dem_model *whole)
     const domain *d = m->domain;
     for (dem_index i = 0; i < d->n_nodes; i++) {
         const dem_index of = d->number[i], from = whole->springs.row[of], row = m->springs.row[i];
-        assert_true(m->inverse_mass[i] == (d->is_ghost[i] ? 0.0 : whole->inverse_mass[of]));
+        assert_true(m->inverse_mass[i] == (d->is_outer[i] ? 0.0 : whole->inverse_mass[of]));
         assert_true(m->stress.volume[i] == whole->stress.volume[of]);
-        if (d->is_ghost[i]) continue;
+        if (d->is_outer[i]) continue;
         assert_int_equal(m->springs.row[i + 1] - row, whole->springs.row[of + 1] - from);
         for (dem_index p = 0; p < m->springs.row[i + 1] - row; p++) {
             assert_int_equal(d->number[m->springs.neighbour[row + p]], whole->springs.neighbour[from + p]);

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* How the nodes of a lattice are shared out among ranks. */
+#ifndef DEM_DOMAIN_DOMAIN_SHARES_H
+#define DEM_DOMAIN_DOMAIN_SHARES_H
+
+#include <stdbool.h>
+
+#include <dem/dem.h>
+
+typedef struct domain_shares {
+    int n_ranks;
+    const int32_t *owner;           /* [n_nodes] the rank of each node */
+    const unsigned char *is_common; /* [n_nodes] not 0: all ranks integrate it; NULL: none is */
+    int n_rings;                    /* of ghosts; 0: one */
+    dem_index most_ghosts;          /* of all ranks together: where several rings have more there is one ring */
+} domain_shares;
+
+/** Whether a rank integrates node i of the lattice always. */
+static inline bool domain_shares_have(const domain_shares *s, int rank, dem_index i)
+{
+    return s->owner[i] == rank || (s->is_common != NULL && s->is_common[i]);
+}
+
+#endif
