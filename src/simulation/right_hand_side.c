@@ -12,6 +12,7 @@
 #include "contact/automaton_step.h"
 #include "forces/band.h"
 #include "simulation/body_contact.h"
+#include "time/butcher.h"
 
 /* The first node whose velocity or acceleration is not finite; -1: none. */
 static dem_index find_culprit(const state_layout *l, const double *y, const double *a)
@@ -81,7 +82,20 @@ static void fill_ghosts(double *y, void *context)
 {
     dem_simulation *s = context;
     double *const arrays[] = {y, y + state_velocities(&s->layout)};
-    halo_exchange(&s->halo, arrays, forces_couple_velocities(&s->forces) ? 2 : 1);
+    halo_exchange(&s->halo, arrays, forces_couple_velocities(&s->forces) || s->shared.once_a_step ? 2 : 1);
+}
+
+/* Whether there are enough rings of ghosts for a step of the method, and nothing acts on them that is known to their
+ * owners alone, or that takes more rings, as the velocities of neighbours do. What contacts do concerns common nodes
+ * only, and the rings are about these, too. Where the last stage is the end of the step, ARKODE adds up the end once
+ * more behind its derivative: then ghosts are not those for which that is. */
+static bool can_integrate_ghosts(const dem_simulation *s)
+{
+    butcher_table table;
+    if (s->options.method == DEM_METHOD_VERLET || butcher_load(&table, s->options.method) != DEM_OK) return false;
+    if (butcher_ends_in_stage(&table)) return false;
+    return s->model->domain->n_rings >= butcher_rings(&table) && s->boundaries.n == 0 && s->external == NULL &&
+           !forces_couple_velocities(&s->forces);
 }
 
 static void take_part(void *context)
@@ -113,6 +127,7 @@ ode_domain right_hand_side_domain(const dem_simulation *s)
                         .whole = state_layout_of(s->layout.dim, model->domain->n_whole, model->obstacles.n,
                                                  state_has_total(&s->layout, STATE_OBSTACLE)),
                         .is_own = model->domain->is_own,
+                        .once_a_step = can_integrate_ghosts(s),
                         .fill_ghosts = fill_ghosts,
                         .take_part = take_part,
                         .name_failure = name_failure,
@@ -240,9 +255,9 @@ static double stiffening(const double *y, bool is_known, void *context)
     return body_contact_stiffening(s, kernel_stiffening(&s->kernel, &s->forces, y), y, is_known);
 }
 
-/* Steps of bands compute what is next to ghosts before these are known: ranks that share a model take none. Root
- * functions are watched with `exact` only, and where there is something to touch. What counts as an error of 1 is rtol
- * times the spacing for a position, and rtol v_scale for a velocity (docs/method.md, Integration in time). */
+/* Bands of a stage compute what is next to ghosts before others have evaluated these: they must be integrated here.
+ * Root functions are watched with `exact` only, and where there is something to touch. What counts as an error of 1 is
+ * rtol times the spacing for a position, and rtol v_scale for a velocity (docs/method.md, Integration in time). */
 ode_problem right_hand_side_problem(dem_simulation *s)
 {
     const dem_model *model = s->model;
@@ -255,7 +270,7 @@ ode_problem right_hand_side_problem(dem_simulation *s)
         .derivative = derivative,
         .band_rows = s->boundaries.n == 0 ? band_nodes(&s->kernel) : 0,
         .band_scratch = band_scratch(&s->kernel),
-        .has_bands = shared ? NULL : has_bands,
+        .has_bands = shared && !s->shared.once_a_step ? NULL : has_bands,
         .bands_hold = bands_hold,
         .band_derivative = band_derivative,
         .fused_step = s->boundaries.n == 0 ? take_fused_step : NULL,

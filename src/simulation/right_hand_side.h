@@ -10,7 +10,7 @@
 ode_problem right_hand_side_problem(dem_simulation *s);
 
 /** What the integrator needs of the domain of a model that ranks share. Of ghosts positions are exchanged, and
- *  velocities where forces depend on those of neighbours. */
+ *  velocities where forces depend on those of neighbours or ghosts are integrated here, too. */
 ode_domain right_hand_side_domain(const dem_simulation *s);
 
 #endif

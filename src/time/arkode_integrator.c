@@ -79,7 +79,7 @@ static int evaluate(double t, N_Vector y, N_Vector f, void *self)
 static int call_derivative(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
     arkode_integrator *I = user;
-    if (deferral_take_derivative(I->deferral, t, y, f)) return 0;
+    if (I->problem.domain == NULL && deferral_take_derivative(I->deferral, t, y, f)) return 0;
     if (I->gives_f0 && t == I->t && nvector_values(y) == nvector_values(I->y0)) {
         nvector_share(I->f0, f);
         return 0;
@@ -93,6 +93,20 @@ static void count_evaluations(int n, void *self)
 {
     arkode_integrator *I = self;
     I->counts.evaluations += n;
+}
+
+/* The same of a step by ranks, which count what ARKODE has asked for. */
+static int evaluate_stage(double t, N_Vector y, N_Vector f, void *self)
+{
+    arkode_integrator *I = self;
+    shared_attempt_evaluate_stage(&I->shared, t, y, f);
+    return 0;
+}
+
+static void count_stages(int n, void *self)
+{
+    arkode_integrator *I = self;
+    attempt_count(&I->attempt, n);
 }
 
 /* Fetches both ends of the step that ARKODE has just accepted, and their derivatives. At the ends ARKODE's cubic
@@ -204,9 +218,14 @@ static void fill_weights(arkode_integrator *I)
 /* Without error control ARKODE asks for no norm. */
 static void defer_stages(arkode_integrator *I)
 {
+    const bool shared = I->problem.domain != NULL;
+    const deferral_owner owner = {.problem = &I->problem,
+                                  .space = I->space,
+                                  .derivative = shared ? evaluate_stage : evaluate,
+                                  .count = shared ? count_stages : count_evaluations,
+                                  .context = I};
     if (I->problem.fixed_step > 0.0 || butcher_ends_in_stage(&I->table)) return;
-    I->deferral =
-        deferral_create(&(deferral_owner){&I->problem, I->space, evaluate, count_evaluations, I}, I->table.stages - 1);
+    I->deferral = deferral_create(&owner, I->table.stages - 1);
     if (I->deferral != NULL) deferral_set_weights(I->deferral, I->weights);
 }
 
@@ -217,6 +236,7 @@ static void watch_sums(arkode_integrator *I)
     shared_attempt_create(&I->shared, &(shared_attempt_owner){.attempt = &I->attempt,
                                                               .table = &I->table,
                                                               .space = I->space,
+                                                              .deferral = I->deferral,
                                                               .y0 = I->y0,
                                                               .f1 = I->f1,
                                                               .weights = I->weights});

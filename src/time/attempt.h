@@ -37,6 +37,12 @@ void attempt_begin(attempt *a, const ode_problem *problem);
  *  \return 0, or what the derivative returns if the attempt is over with it: ranks go on to its end */
 int attempt_evaluate(attempt *a, double t, const double *y, double *u, double *accelerations);
 
+/** Counts evaluations made otherwise, none of which has failed. */
+static inline void attempt_count(attempt *a, int n)
+{
+    a->n += n;
+}
+
 /** Takes a step of Verlet's method at once, with the evaluation at its end.
  *  \return as attempt_evaluate(); -1 if that is not possible from this state, and nothing has been done */
 int attempt_take_fused_step(attempt *a, const ode_fused_step *step);

@@ -150,6 +150,35 @@ bool butcher_ends_in_stage(const butcher_table *t)
     return same;
 }
 
+/* Weights of a sum over n stages.  \return the most rings of those in it */
+static int most_rings(const double *weight, const int *rings, int n)
+{
+    int most = 0;
+    for (int j = 0; j < n; j++)
+        if (weight[j] != 0.0 && rings[j] > most) most = rings[j];
+    return most;
+}
+
+static int larger(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+/* Positions at a stage follow from velocities at stages before, and velocities from accelerations; these, from a ring
+ * more of positions. */
+int butcher_rings(const butcher_table *t)
+{
+    int v[BUTCHER_STAGES], a[BUTCHER_STAGES];
+    const int n = t->stages;
+    for (int i = 0; i < n; i++) {
+        const double *weights = &t->a[i * t->stages];
+        v[i] = most_rings(weights, a, i);
+        a[i] = larger(most_rings(weights, v, i) + 1, v[i]);
+    }
+    const int at_end = larger(most_rings(t->b, v, n), most_rings(t->b, a, n));
+    return larger(at_end, t->embedded_order > 0 ? larger(most_rings(t->d, v, n), most_rings(t->d, a, n)) : 0);
+}
+
 dem_status butcher_reach(step_reach *out, dem_method method)
 {
     butcher_table table;

@@ -27,6 +27,11 @@ dem_status butcher_load(butcher_table *out, dem_method method);
 /** Whether the last stage is the end of the step, so that the next step has its derivative. */
 bool butcher_ends_in_stage(const butcher_table *t);
 
+/** How many rings of neighbours about a node have a part in what it does in a step: in its place, its velocity and
+ *  their errors at the end, and before in all that they depend on, but in the derivative at the end. Accelerations
+ *  depend on the places of neighbours. */
+int butcher_rings(const butcher_table *t);
+
 /** How far a step of any method reaches, Verlet's included.  \return DEM_ERROR_ARGUMENT as butcher_load() */
 dem_status butcher_reach(step_reach *out, dem_method method);
 

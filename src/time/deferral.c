@@ -14,8 +14,6 @@
 
 #include <stdlib.h>
 
-#include "base/reduce.h"
-
 enum { MOST_CALLS = STAGE_WAVE_RATES + STAGE_WAVE_SUMS };
 
 /* result = sum of factor_k x_k, or, with n = 0, the derivative at (t, x_0). */
@@ -35,8 +33,9 @@ struct deferral {
     N_Vector weights;
     deferred_call calls[MOST_CALLS];
     int n_calls;
-    bool is_done;       /* the calls have been taken as a wave */
-    double scale, norm; /* of the last wave */
+    bool is_done;          /* the calls have been taken as a wave */
+    array_ops_sum squares; /* of the last wave, of this rank, */
+    double scale, norm;    /* with this scale; and the norm, where there are no other ranks */
 };
 
 /* ---- the list ---- */
@@ -151,19 +150,17 @@ static bool describe(const deferral *d, stage_program *p)
 }
 
 /* The norm is good if its scale was that of the largest error; else the next wave has a better one.
- * \return whether the step has been taken, and is accepted */
+ * \return whether the step has been taken, and, unless ranks are still to judge it, is accepted */
 static bool run_wave(deferral *d)
 {
     stage_program p;
-    array_ops_sum squares;
     if (d->weights == NULL || d->n_calls % 2 != 0 || !describe(d, &p)) return false;
     p.weights = nvector_values(d->weights);
     nvector_set_use(end_of(d), NVECTOR_FREE);
     p.end = nvector_fresh(end_of(d));
-    const ranks *r = ode_problem_ranks(d->owner.problem);
-    if (reduce_any(r, !stage_wave_run(d->wave, &p, &squares))) return false;
-    squares = reduce_squares(r, squares);
-    return nvector_norm_of_sum(d->owner.space, &squares, &d->scale, &d->norm) && d->norm <= 1.0;
+    if (!stage_wave_run(d->wave, &p, &d->squares)) return false;
+    if (d->owner.problem->domain != NULL) return true;
+    return nvector_norm_of_sum(d->owner.space, &d->squares, &d->scale, &d->norm) && d->norm <= 1.0;
 }
 
 /* \return -1 if a derivative has failed */
@@ -231,6 +228,23 @@ static bool take_norm(void *self, N_Vector x, N_Vector weights, double *norm)
     return true;
 }
 
+bool deferral_has_squares(const deferral *d, double scale, array_ops_sum *squares)
+{
+    if (d == NULL || !d->is_done || scale != d->scale) return false;
+    *squares = d->squares;
+    return true;
+}
+
+void deferral_set_scale(deferral *d, double scale)
+{
+    if (d != NULL) d->scale = scale;
+}
+
+void deferral_make_up(deferral *d)
+{
+    if (d != NULL && d->is_done) (void)make_calls(d);
+}
+
 /* ---- making and freeing ---- */
 
 deferral *deferral_create(const deferral_owner *owner, int n_stages)
@@ -257,6 +271,11 @@ void deferral_free(deferral *d)
     nvector_space_defer(d->owner.space, NULL);
     stage_wave_free(d->wave);
     free(d);
+}
+
+const nvector_deferral *deferral_seen(const deferral *d)
+{
+    return &d->seen;
 }
 
 void deferral_set_weights(deferral *d, N_Vector weights)

@@ -39,7 +39,10 @@ typedef struct ode_domain {
     const ranks *ranks;
     state_layout whole;          /* of a state with all nodes */
     const unsigned char *is_own; /* [n_nodes] 0: a ghost, whose error is that of another rank */
-    /** Puts into y what other ranks have of it. Called before every derivative; a fused step does so itself. */
+    bool once_a_step; /* ghosts are integrated here, too, and are good enough for all stages of a step from a state in
+                         which they were filled before its derivative was evaluated */
+    /** Puts into y what other ranks have of it. Called before every derivative, or where it is `once_a_step` only
+     *  before those where steps begin and end; a fused step does so itself. */
     void (*fill_ghosts)(double *y, void *context);
     /** Takes part, with nothing of its own, in what other ranks sum in a derivative that this rank leaves out after a
      *  failure. */

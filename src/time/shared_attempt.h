@@ -6,6 +6,7 @@
 
 #include "time/attempt.h"
 #include "time/butcher.h"
+#include "time/deferral.h"
 #include "time/nvector.h"
 
 /** What belongs to the integrator. */
@@ -13,6 +14,7 @@ typedef struct shared_attempt_owner {
     attempt *attempt;
     const butcher_table *table;
     nvector_space *space;
+    deferral *deferral;       /* of stages that need nothing of other ranks; NULL: none are deferred */
     N_Vector y0, f1, weights; /* the state from which the step goes; the derivative at its end, written; of the norm */
 } shared_attempt_owner;
 
@@ -30,6 +32,7 @@ typedef struct shared_attempt {
     bool has_f1;              /* whether f1 is the derivative at the end, which ARKODE has not asked for yet */
     N_Vector error;           /* of the attempt; NULL: not known */
     double norm[2], scale[2]; /* of the error and of the end of the step, and the scales of these sums of squares */
+    double usual_scale;       /* of the error of the last step that was accepted */
     double norm_of_start;     /* of y0, */
     bool knows_start;         /* if that is known */
 } shared_attempt;
@@ -44,6 +47,9 @@ void shared_attempt_begin(shared_attempt *s, double t0);
 /** Evaluates f = f(t, y) for ARKODE.  \return 0, or -1 if this or an earlier one has failed on some rank, whose message
  *  is set then */
 int shared_attempt_evaluate(shared_attempt *s, double t, N_Vector y, N_Vector f);
+
+/** Evaluates the derivative at a stage that was deferred. */
+void shared_attempt_evaluate_stage(shared_attempt *s, double t, N_Vector y, N_Vector f);
 
 /** The end of the step has become y0, or y0 is another state. */
 void shared_attempt_go_on(shared_attempt *s);

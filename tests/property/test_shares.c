@@ -146,8 +146,9 @@ static bool check(const problem *p, unsigned long seed)
         ending ends[MOST_RANKS] = {make_ending(n)};
         for (int k = 1; k < n_ranks; k++) ends[k] = ends[0];
         draw_owners(owner, n, n_ranks, seed);
-        rank_threads_run(n_ranks, run_rank,
-                         &(shared_run){p, whole, {owner, p->options->bodies != DEM_BODIES_NONE}, ends});
+        rank_threads_run(
+            n_ranks, run_rank,
+            &(shared_run){p, whole, {owner, p->options->bodies != DEM_BODIES_NONE, n_ranks == 2 ? 3 : 1}, ends});
         for (int k = 0; k < n_ranks; k++)
             if (!is_same(&ends[k], &alone, n))
                 fail_msg("seed %lu, contact %d, method %d: rank %d of %d ends otherwise: '%s', alone '%s'", seed,

@@ -259,7 +259,7 @@ static void share(const scene *s, int n_ranks, const int32_t *owner, const outco
     outcome all[MOST_RANKS];
     make_outcome(&all[0], whole->n_nodes);
     for (int k = 1; k < n_ranks; k++) all[k] = all[0];
-    shared_run c = {s, {owner, true}, all};
+    shared_run c = {s, {owner, true, s->options.method == DEM_METHOD_FEHLBERG45 ? 3 : 0}, all};
     rank_threads_run(n_ranks, run_rank, &c);
     for (int k = 0; k < n_ranks; k++) assert_same(&all[k], whole, 0);
     free_outcome(&all[0]);
@@ -426,7 +426,7 @@ static void assert_said(const scene *s, bool touching, const char *message)
     const dem_lattice *l = dem_model_lattice(s->model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     draw(l->n_nodes, 3, 1, owner);
-    said c = {.scene = s, .shares = {owner, touching}};
+    said c = {.scene = s, .shares = {owner, touching, 0}};
     rank_threads_run(3, say, &c);
     for (int k = 0; k < 3; k++) assert_string_equal(c.messages[k], message);
 }

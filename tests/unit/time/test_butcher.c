@@ -121,3 +121,18 @@ TEST(steps_reach_as_far_as_their_tables_say)
     assert_close(found.position, sixth, 1e-13);
     assert_int_equal(butcher_reach(&found, (dem_method)-1), DEM_ERROR_ARGUMENT);
 }
+
+/* By hand. Classical: the second stage moves by v_0 and the third by a ring of v_1, so that at the end velocities have
+ * the two rings of its acceleration. Each second one of Fehlberg's five stages brings a ring. */
+TEST(rings_about_a_node_have_a_part_in_its_step)
+{
+    static const struct {
+        dem_method method;
+        int rings;
+    } known[] = {{DEM_METHOD_HEUN12, 1}, {DEM_METHOD_RK4, 2}, {DEM_METHOD_FEHLBERG45, 3}};
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+        butcher_table table;
+        assert_ok(butcher_load(&table, known[k].method));
+        assert_int_equal(butcher_rings(&table), known[k].rings);
+    }
+}
