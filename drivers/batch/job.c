@@ -415,11 +415,6 @@ static dem_status build(job *j)
 static bool builds(job *j)
 {
     namelist_errors errors = {0};
-    const rank_group *ranks = j->command->ranks;
-    if (ranks != NULL && !rank_group_can_share(ranks, &j->deck, &errors)) {
-        report_errors(j, EXIT_INVALID, &errors);
-        return false;
-    }
     const dem_status status = build(j);
     const bool is_created = j->simulation != NULL; /* then what fails is to share it out */
     if (status != DEM_ERROR_MODEL || j->model == NULL || is_created) return passes(j, status, j->deck.path);

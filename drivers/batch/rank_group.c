@@ -6,7 +6,6 @@
 #include <stdio.h>
 
 #include "outcome.h"
-#include "schema.h"
 
 static const char library[] = "libdem_mpi.so.2";
 
@@ -50,16 +49,6 @@ dem_status rank_group_lead(const rank_group *g, dem_simulation *whole, const dem
                            const dem_checkpoint *checkpoint)
 {
     return g->lead(g->self, whole, options, checkpoint);
-}
-
-bool rank_group_can_share(const rank_group *g, const deck *d, namelist_errors *errors)
-{
-    const dem_lattice *l = &d->lattice;
-    if (l->strength == NULL && l->critical_stretch == NULL && l->compressive_strength == NULL) return true;
-    namelist_errors_add(errors, schema_place(schema_get(&d->groups, "body", 0), "material"),
-                        "%d ranks cannot share what breaks: 'fracture' in &material, or limits in a lattice file",
-                        g->size);
-    return false;
 }
 
 void rank_group_print(const rank_group *g, const dem_simulation *whole, FILE *out)

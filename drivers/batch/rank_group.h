@@ -9,8 +9,6 @@
 
 #include <dem/dem.h>
 
-#include "namelist_errors.h"
-#include "deck.h"
 #include "host.h"
 
 enum { RANK_GROUP_REASON = 256 };
@@ -40,9 +38,6 @@ dem_status rank_group_lead(const rank_group *g, dem_simulation *whole, const dem
 /** Prints how many nodes the ranks have of a run that rank 0 leads, and what memory they take, the least and the most.
  *  On rank 0. */
 void rank_group_print(const rank_group *g, const dem_simulation *whole, FILE *out);
-
-/** Whether ranks can share what a deck asks for; else the first key that they cannot yet is among the errors. */
-bool rank_group_can_share(const rank_group *g, const deck *d, namelist_errors *errors);
 
 /** Ends MPI. On rank 0 when all is done, with an exit code; on the others at once: they take part in all runs of rank 0
  *  meanwhile.  \return the exit code of rank 0 */

@@ -182,6 +182,7 @@ void domain_free(domain *d)
     free(d->neighbours);
     free(d->number);
     free(d->spring);
+    free(d->triangle);
     free(d->is_own);
     free(d->is_ghost);
     free(d->is_outer);

@@ -21,15 +21,16 @@ typedef struct domain_neighbour {
 } domain_neighbour;
 
 typedef struct domain {
-    dem_index n_nodes, n_whole;                 /* of the domain, and of the whole lattice */
-    dem_index *number;                          /* [n_nodes] in the whole lattice, ascending */
-    dem_index n_springs, n_triangles;           /* of the whole lattice, and */
-    dem_index n_surface_nodes, n_surface_edges; /* that may touch obstacles */
-    dem_index *spring;       /* [springs of the domain] their numbers in the whole lattice, ascending */
-    unsigned char *is_own;   /* [n_nodes] 1: an own node, which counts here */
-    unsigned char *is_ghost; /* [n_nodes] 1: what it does comes from its owner; else it is integrated here */
-    unsigned char *is_outer; /* [n_nodes] 1: a ghost of the last ring: some of its neighbours are not here */
-    int n_rings;             /* of ghosts */
+    dem_index n_nodes, n_whole;       /* of the domain, and of the whole lattice */
+    dem_index *number;                /* [n_nodes] in the whole lattice, ascending */
+    dem_index n_springs, n_triangles; /* of the whole lattice, and */
+    dem_index n_surface_nodes;        /* that may touch obstacles */
+    dem_index *spring;                /* [springs of the domain] their numbers in the whole lattice, ascending; */
+    dem_index *triangle;              /* [triangles of the domain] likewise */
+    unsigned char *is_own;            /* [n_nodes] 1: an own node, which counts here */
+    unsigned char *is_ghost;          /* [n_nodes] 1: what it does comes from its owner; else it is integrated here */
+    unsigned char *is_outer;          /* [n_nodes] 1: a ghost of the last ring: some of its neighbours are not here */
+    int n_rings;                      /* of ghosts */
     int n_neighbours;
     domain_neighbour *neighbours; /* [n_neighbours] by rank */
 } domain;
@@ -63,10 +64,20 @@ static inline bool domain_run(const domain *d, dem_index first, dem_index n, dem
     return d->is_own[first] != 0;
 }
 
-/** The number in the whole lattice of node i. */
+/** The number in the whole lattice of node i, spring k, triangle t. */
 static inline dem_index domain_number(const domain *d, dem_index i)
 {
     return d != NULL ? d->number[i] : i;
+}
+
+static inline dem_index domain_spring(const domain *d, dem_index k)
+{
+    return d != NULL ? d->spring[k] : k;
+}
+
+static inline dem_index domain_triangle(const domain *d, dem_index t)
+{
+    return d != NULL ? d->triangle[t] : t;
 }
 
 #endif

@@ -497,8 +497,7 @@ static named_strain name_strain(const dem_model *m, double strain, dem_index spr
     const domain *d = m->domain;
     if (spring < 0) return (named_strain){.strain = strain, .spring = -1};
     const spring_ends ends = ends_of(&m->lattice, spring);
-    return (named_strain){
-        strain, {domain_number(d, ends.low), domain_number(d, ends.high)}, d != NULL ? d->spring[spring] : spring};
+    return (named_strain){strain, {domain_number(d, ends.low), domain_number(d, ends.high)}, domain_spring(d, spring)};
 }
 
 static dem_strain reduce(const taking *t)

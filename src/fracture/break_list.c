@@ -160,9 +160,12 @@ void break_list_find_split(break_list *b, dem_index from, const dem_model *model
     for (dem_index k = b->n; k-- > from;) b->split[k] = mend(b->fragment, elements, &b->list[k]);
 }
 
-dem_break break_list_at(const break_list *b, dem_index k)
+dem_break break_list_at(const break_list *b, dem_index k, const dem_model *model)
 {
+    const domain *d = model->domain;
     dem_break own = b->list[k];
-    own.fragment_new = b->split[k];
+    if (own.triangle >= 0) own.triangle = domain_triangle(d, own.triangle);
+    if (own.spring >= 0) own.spring = domain_spring(d, own.spring);
+    own.fragment_new = b->split[k] >= 0 ? domain_number(d, b->split[k]) : -1;
     return own;
 }

@@ -32,8 +32,8 @@ void break_list_break(break_list *b, dem_index k, const dem_model *model, elemen
  *  \param elements  the state after all in the list, and before anything else has broken */
 void break_list_find_split(break_list *b, dem_index from, const dem_model *model, const element_state *elements);
 
-/** The k-th with what it has split off. */
-dem_break break_list_at(const break_list *b, dem_index k);
+/** The k-th with what it has split off, by the numbers of the whole lattice, of which the model may have a part. */
+dem_break break_list_at(const break_list *b, dem_index k, const dem_model *model);
 
 /** Energy of the springs and triangles of which all nodes are among these, J; of others the part of these nodes. */
 double break_list_energy(const dem_index *nodes, dem_index n, const dem_model *model, const element_state *elements,

@@ -76,21 +76,23 @@ static dem_status refuse(const fracture_source *s, dem_index element, double uti
     const dem_index spring = element - l->n_triangles;
     const dem_index node = spring >= 0 ? l->ends[2 * spring] : l->triangles[3 * element];
     const double limit = spring >= 0 ? l->critical_stretch[spring] : l->strength[element], *x = &l->position[2 * node];
+    const domain *d = s->model->domain; /* all ranks have what may break, by numbers of their own */
+    const long long named = spring >= 0 ? domain_spring(d, spring) : domain_triangle(d, element);
     const int body = l->body != NULL ? l->body[node] : 0;
     if (spring >= 0)
         return status_fail(DEM_ERROR_MODEL,
                            "spring %lld of body %d at (%g, %g) m has the strain %g at the start, beyond its critical "
                            "stretch %g",
-                           (long long)spring, body, x[0], x[1], utilisation * limit, limit);
+                           named, body, x[0], x[1], utilisation * limit, limit);
     if (l->compressive_strength != NULL && isfinite(l->compressive_strength[element]))
         return status_fail(DEM_ERROR_MODEL,
                            "triangle %lld of body %d at (%g, %g) m is at %g times what it stands at the start, by its "
                            "strength %g Pa and its compressive strength %g Pa",
-                           (long long)element, body, x[0], x[1], utilisation, limit, l->compressive_strength[element]);
+                           named, body, x[0], x[1], utilisation, limit, l->compressive_strength[element]);
     return status_fail(DEM_ERROR_MODEL,
                        "triangle %lld of body %d at (%g, %g) m has the stress %g Pa at the start, beyond its strength "
                        "%g Pa",
-                       (long long)element, body, x[0], x[1], utilisation * limit, limit);
+                       named, body, x[0], x[1], utilisation * limit, limit);
 }
 
 /* What is broken already is not asked. */
@@ -103,7 +105,7 @@ static bool is_whole(const fracture_source *s, dem_index element)
 
 static bool may_break(const fracture_source *s, dem_index element)
 {
-    return is_whole(s, element) && utilisation_is_limited(&s->model->lattice, element);
+    return is_whole(s, element) && breakable_element(&s->model->lattice, element);
 }
 
 dem_status fracture_source_check_start(const fracture_source *s, const double *x)

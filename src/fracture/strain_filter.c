@@ -36,7 +36,7 @@ static const utilisation_limits unlimited = {.tension = (double)INFINITY, .press
 static utilisation_limits limits_of(const dem_lattice *l, dem_index triangle)
 {
     utilisation_limits limits = unlimited;
-    if (!utilisation_is_limited(l, triangle)) return limits;
+    if (!breakable_element(l, triangle)) return limits;
     limits.tension = l->strength[triangle];
     if (l->compressive_strength != NULL) limits.pressure = l->compressive_strength[triangle];
     return limits;
@@ -130,7 +130,7 @@ static dem_status fill(strain_filter *f, const dem_lattice *l, const element_sta
     CHECK(f->threshold != NULL, DEM_ERROR_MEMORY, "out of memory for the limits of %lld springs",
           (long long)l->n_springs);
     for (dem_index k = 0; k < l->n_springs; k++) {
-        const bool limited = l->critical_stretch != NULL && utilisation_is_limited(l, l->n_triangles + k);
+        const bool limited = l->critical_stretch != NULL && breakable_element(l, l->n_triangles + k);
         f->threshold[k] = (kernel_threshold){INFINITY, INFINITY};
         if (limited) f->threshold[k].stretch = round_down(near_limit * l->critical_stretch[k]);
     }

@@ -49,11 +49,3 @@ double utilisation_of(const dem_model *model, const element_state *elements, dem
     for (int c = 0; c < 3; c++) node_stress(model, elements, NODE_STRESS_EFFECTIVE, corner[c], x, stress[c]);
     return utilisation_of_stress(limits, stress[0], stress[1], stress[2]);
 }
-
-bool utilisation_is_limited(const dem_lattice *l, dem_index element)
-{
-    const dem_index spring = element - l->n_triangles;
-    const double *limits = spring >= 0 ? l->critical_stretch : l->strength;
-    const dem_index node = spring >= 0 ? l->ends[2 * spring] : l->triangles[3 * element];
-    return limits != NULL && isfinite(limits[spring >= 0 ? spring : element]) && !(l->flags[node] & DEM_NODE_RIGID);
-}

@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "model/breakable_nodes.h"
 #include "model/element_state.h"
 #include "model/model.h"
 
@@ -41,9 +42,6 @@ static inline bool utilisation_by_own_stress(const dem_lattice *l, dem_index tri
 /** Of an element that is whole, at positions x [n][2]: of a triangle by its corners' stresses, or its own, of a spring
  *  its strain over the critical one. */
 double utilisation_of(const dem_model *model, const element_state *elements, dem_index element, const double *x);
-
-/** Whether an element may break at all: it has a limit, and its body is not rigid. */
-bool utilisation_is_limited(const dem_lattice *lattice, dem_index element);
 
 /** How many elements have numbers: triangles, and springs where some of these have a critical stretch. */
 static inline dem_index utilisation_n_elements(const dem_lattice *l)

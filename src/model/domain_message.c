@@ -37,7 +37,7 @@ static head head_of(const dem_model *m)
               .spacing = m->spacing,
               .omega_max = m->omega_max,
               .mass = m->mass};
-    h.domain.number = h.domain.spring = NULL;
+    h.domain.number = h.domain.spring = h.domain.triangle = NULL;
     h.domain.is_own = h.domain.is_ghost = h.domain.is_outer = NULL;
     h.domain.neighbours = NULL;
     return h;
@@ -94,6 +94,7 @@ static void list_domain(parcel *p, domain *d, const head *h)
     const size_t n = (size_t)d->n_nodes;
     parcel_add(p, &d->number, n * sizeof *d->number);
     parcel_add(p, &d->spring, (size_t)h->n[LATTICE_SPRINGS] * sizeof *d->spring);
+    parcel_add(p, &d->triangle, (size_t)h->n[LATTICE_TRIANGLES] * sizeof *d->triangle);
     parcel_add(p, &d->is_own, n);
     parcel_add(p, &d->is_ghost, n);
     parcel_add(p, &d->is_outer, n);
@@ -110,8 +111,9 @@ static void list_rigid(parcel *p, rigid_bodies *r, dem_index n_nodes)
     parcel_add(p, &r->shapes, 2 * n * sizeof *r->shapes);
 }
 
-static void list_touching(parcel *p, touching_bodies *o)
+static void list_touching(parcel *p, touching_bodies *o, dem_index n_nodes)
 {
+    parcel_add(p, &o->boundary.outer, (size_t)n_nodes);
     parcel_add(p, &o->boundary.list, (size_t)o->boundary.n * sizeof *o->boundary.list);
     parcel_add(p, &o->bodies, (size_t)o->n_bodies * sizeof *o->bodies);
 }
@@ -132,7 +134,7 @@ static void list_arrays(parcel *p, domain_cut *c, const head *h)
     const size_t n = (size_t)h->n[LATTICE_NODES];
     list_lattice(p, &m->lattice);
     list_domain(p, m->domain, h);
-    list_touching(p, m->touching);
+    list_touching(p, m->touching, m->lattice.n_nodes);
     list_rigid(p, &m->rigid, m->lattice.n_nodes);
     list_stress(p, &m->stress, h);
     parcel_add(p, &m->inverse_mass, n * sizeof *m->inverse_mass);

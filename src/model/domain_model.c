@@ -13,10 +13,12 @@
  * - where bodies touch each other, or themselves, all nodes of their surfaces, with the boundary of the whole and the
  *   sums over its bodies by which the laws of surfaces are chosen;
  * - rigid bodies, whose motion follows from sums over them;
- * - where there are obstacles what the correction of a step for an event there changes or reads, too
- *   (events/local_correction.c): its rings about the nodes that the event moves, which are among those that may touch,
- *   and the accelerations of the last of these rings. From one surface to another that it touches a ring goes to nodes
- *   that are on surfaces, and begins anew there. */
+ * - what has elements that may break, with all that is joined to these: which break, in which order, and what comes of
+ *   it, surfaces and fragments too, each rank finds by itself;
+ * - where there are obstacles, or surfaces beside what may break, what the correction of a step for an event changes or
+ *   reads, too (events/local_correction.c): its rings about the nodes that the event moves, which are among those that
+ *   may touch or break, and the accelerations of the last of these rings. From one surface to another that it touches a
+ *   ring goes to nodes that are on surfaces, and begins anew there. */
 #include "model/domain_model.h"
 
 #include <stdlib.h>
@@ -29,21 +31,16 @@
 #include "domain/ghost_rings.h"
 #include "lattice/lattice.h"
 #include "lattice/lattice_cut.h"
+#include "model/breakable_nodes.h"
 #include "model/domain_message.h"
 #include "obstacle/obstacle_set.h"
 
-/* Which of the whole lattice is in the domain; `spring` is the domain's list. */
+/* Which of the whole lattice is in the domain, whose lists of springs and triangles these are. */
 typedef struct places {
     dem_index *node; /* [nodes of the whole] their numbers in the domain; -1: not there */
     dem_index n_springs, n_triangles;
     dem_index *spring, *triangle; /* [n] that are there, by their numbers in the whole, ascending */
 } places;
-
-static void free_places(places *p)
-{
-    free(p->node);
-    free(p->triangle);
-}
 
 /* Lists the tuples of which the domain has all corners, or without a list only counts them. */
 static dem_index list_tuples(const dem_index *corner, int arity, dem_index n, const dem_index *node, dem_index *list)
@@ -67,7 +64,7 @@ static dem_status find_places(places *p, domain *d, const dem_lattice *whole)
     p->n_springs = list_tuples(whole->ends, 2, whole->n_springs, p->node, NULL);
     p->n_triangles = list_tuples(whole->triangles, 3, whole->n_triangles, p->node, NULL);
     p->spring = d->spring = lattice_zeros(p->n_springs, sizeof *p->spring);
-    p->triangle = lattice_zeros(p->n_triangles, sizeof *p->triangle);
+    p->triangle = d->triangle = lattice_zeros(p->n_triangles, sizeof *p->triangle);
     CHECK(p->spring && p->triangle, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes",
           (long long)d->n_nodes);
     (void)list_tuples(whole->ends, 2, whole->n_springs, p->node, p->spring);
@@ -93,6 +90,12 @@ static dem_status cut_lattice(dem_model *m, const dem_lattice *whole, const plac
     return lattice_cut_create(&m->lattice, whole, &list);
 }
 
+/* Whether anything may break by itself. */
+static bool may_break(const dem_lattice *l)
+{
+    return l->strength != NULL || l->critical_stretch != NULL;
+}
+
 /* ---- what is found of the whole once ---- */
 
 typedef struct whole_lattice {
@@ -115,16 +118,18 @@ int domain_model_rings(const dem_lattice *lattice)
     return lattice->viscosity != NULL ? 7 : 4;
 }
 
-/* \param boundary  of surfaces that may touch each other; NULL: none do. Without obstacles there are no events, and so
- *  no rings */
-static void find_common(const dem_model *whole, const mesh_boundary *boundary, unsigned char *is_common)
+/* \param boundary  of surfaces that may touch each other; NULL: none do. Without obstacles, and what may break, there are
+ *  no events, and so no rings */
+static dem_status find_common(const dem_model *whole, const mesh_boundary *boundary, unsigned char *is_common)
 {
     const dem_lattice *l = &whole->lattice;
-    const bool has_events = whole->obstacles.n > 0;
+    const bool has_obstacles = whole->obstacles.n > 0;
+    TRY(breakable_nodes_mark(l, is_common));
     for (dem_index i = 0; i < l->n_nodes; i++)
-        is_common[i] = (has_events && l->flags[i] & DEM_NODE_CONTACT) || l->flags[i] & DEM_NODE_RIGID;
+        if ((has_obstacles && l->flags[i] & DEM_NODE_CONTACT) || l->flags[i] & DEM_NODE_RIGID) is_common[i] = 1;
     if (boundary != NULL) mesh_boundary_mark(boundary, is_common, 1);
-    if (has_events) common_nodes_add_rings(l, domain_model_rings(l), is_common);
+    if (has_obstacles || may_break(l)) common_nodes_add_rings(l, domain_model_rings(l), is_common);
+    return DEM_OK;
 }
 
 /* Where springs are damped accelerations follow from velocities of neighbours, so that a step would need twice as many
@@ -157,7 +162,7 @@ static dem_status open_whole(whole_lattice *w, const ranks *r, const dem_model *
     TRY(touching_bodies_create(&w->bodies, &model->lattice));
     w->is_common = lattice_zeros(model->lattice.n_nodes, sizeof *w->is_common);
     CHECK_MEMORY(w->is_common);
-    find_common(model, shares->touching ? &w->bodies.boundary : NULL, w->is_common);
+    TRY(find_common(model, shares->touching ? &w->bodies.boundary : NULL, w->is_common));
     w->shares = shares_of(r, model, shares, w->is_common);
     return ghost_rings_find(&w->rings, &model->lattice, &w->shares);
 }
@@ -189,15 +194,18 @@ static dem_status cut_touching(dem_model *m, const touching_bodies *whole, const
     o->boundary.lattice = &m->lattice;
     o->boundary.n = cut_boundary(&whole->boundary, p, NULL);
     o->boundary.list = malloc(((size_t)o->boundary.n + 1) * sizeof *o->boundary.list);
+    o->boundary.outer = malloc((size_t)m->domain->n_nodes);
     o->bodies = malloc(((size_t)o->n_bodies + 1) * sizeof *o->bodies);
-    CHECK(o->boundary.list && o->bodies, DEM_ERROR_MEMORY, "out of memory for %lld boundary edges",
+    CHECK(o->boundary.list && o->boundary.outer && o->bodies, DEM_ERROR_MEMORY, "out of memory for %lld boundary edges",
           (long long)o->boundary.n);
     (void)cut_boundary(&whole->boundary, p, o->boundary.list);
+    for (dem_index i = 0; i < m->domain->n_nodes; i++)
+        o->boundary.outer[i] = whole->boundary.outer[m->domain->number[i]];
     memcpy(o->bodies, whole->bodies, (size_t)o->n_bodies * sizeof *o->bodies);
     return DEM_OK;
 }
 
-/* The rows of own nodes; those of ghosts are empty. */
+/* The rows of nodes that are integrated, of which common ones may decide what breaks; those of ghosts are empty. */
 static dem_status cut_stress(dem_model *m, const stress_map *whole, const places *p)
 {
     const domain *d = m->domain;
@@ -205,14 +213,14 @@ static dem_status cut_stress(dem_model *m, const stress_map *whole, const places
     dem_index n = 0;
     TRY(stress_prepare(whole));
     for (dem_index i = 0; i < d->n_nodes; i++)
-        if (d->is_own[i]) n += from->row[d->number[i] + 1] - from->row[d->number[i]];
+        if (!d->is_ghost[i]) n += from->row[d->number[i] + 1] - from->row[d->number[i]];
     TRY(stress_create(&m->stress, d->n_nodes, n, &m->couplings));
     stress_rows *to = m->stress.rows;
     n = 0;
     for (dem_index i = 0; i < d->n_nodes; i++) {
         const dem_index of = d->number[i];
         m->stress.volume[i] = whole->volume[of];
-        for (dem_index q = from->row[of]; d->is_own[i] && q < from->row[of + 1]; q++) {
+        for (dem_index q = from->row[of]; !d->is_ghost[i] && q < from->row[of + 1]; q++) {
             to->spring[n] = (int32_t)spring_of(p, from->spring[q]);
             to->share[n++] = from->share[q];
         }
@@ -250,7 +258,6 @@ static void take_scales(dem_model *m, const dem_model *whole)
     m->domain->n_springs = whole->lattice.n_springs;
     m->domain->n_triangles = whole->lattice.n_triangles;
     m->domain->n_surface_nodes = whole->surface.n_nodes;
-    m->domain->n_surface_edges = whole->surface.n_edges;
     m->edges_are_springs = whole->edges_are_springs;
     m->n_bodies = whole->n_bodies;
     m->spacing = whole->spacing;
@@ -282,7 +289,7 @@ static dem_status cut(domain_cut *c, const whole_lattice *w, int rank)
     TRY(domain_create_within(m->domain, &w->model->lattice, &w->shares, &w->rings, rank));
     dem_status status = find_places(&p, m->domain, &w->model->lattice);
     if (status == DEM_OK) status = cut_parts(c, w, &p);
-    free_places(&p);
+    free(p.node);
     return status;
 }
 
@@ -303,11 +310,12 @@ static void close_cut(domain_cut *c, bool keeps_model)
 
 /* ---- what is compiled of it ---- */
 
-/* The boundary is kept where bodies touch each other. */
+/* The boundary is kept where bodies touch each other, and where something may break. */
 static dem_status compile_surface(dem_model *m, bool touching)
 {
+    m->touching->has_all = touching;
     TRY(surface_compile_boundary(&m->surface, &m->lattice, &m->touching->boundary, SURFACE_TOUCHING));
-    if (touching) return DEM_OK;
+    if (touching || may_break(&m->lattice)) return DEM_OK;
     touching_bodies_free(m->touching);
     free(m->touching);
     m->touching = NULL;
@@ -324,15 +332,6 @@ static dem_status compile(const domain_cut *c, const dem_obstacle *obstacles, de
     TRY(layout_compile_part(&m->layout, &m->springs, &m->triangles, &m->couplings, c->order));
     TRY(compile_surface(m, touching));
     return obstacles_compile(&m->obstacles, obstacles, n_obstacles);
-}
-
-/* What ranks cannot share yet. */
-static dem_status check(const ranks *r, const dem_model *whole)
-{
-    const dem_lattice *l = &whole->lattice;
-    CHECK(l->strength == NULL && l->critical_stretch == NULL && l->compressive_strength == NULL, DEM_ERROR_MODEL,
-          "%d ranks cannot share a model that may break yet", r->size);
-    return DEM_OK;
 }
 
 /* Hands the model over if all ranks have theirs. */
@@ -363,7 +362,6 @@ dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model 
                                const domain_model_shares *shares)
 {
     domain_cut c = {0};
-    TRY(reduce_status(r, check(r, whole), 0.0));
     return finish(out, r, &c, create(&c, r, whole, shares));
 }
 
@@ -405,7 +403,6 @@ dem_status domain_model_deal(dem_model **out, const ranks *r, const dem_model *w
                              const dem_obstacle *obstacles, dem_index n_obstacles)
 {
     domain_cut c = {0};
-    TRY(reduce_status(r, r->rank == 0 ? check(r, whole) : DEM_OK, 0.0));
     dem_status status = deal(&c, r, whole, shares);
     if (status == DEM_OK) status = compile(&c, obstacles, n_obstacles, shares->touching);
     return finish(out, r, &c, status);

@@ -15,11 +15,10 @@ typedef struct domain_model_shares {
 
 /** Cuts the model of a rank from one of the whole lattice, which may be destroyed afterwards. Own nodes have the
  *  masses, springs, triangles, surface edges and stresses of the whole: where the domain ends there is no boundary.
- *  Common nodes have the same but for stresses; rigid bodies have no others. Ghosts whose neighbours are all here are
- *  accelerated, too, others are not. Collective.
+ *  Common nodes have the same; rigid bodies, and what is joined to elements that may break, have no others. Ghosts
+ *  whose neighbours are all here are accelerated, too, others are not. Collective.
  *  Borrows the ranks. Free with dem_model_destroy().
- *  \return DEM_ERROR_MODEL if a rank owns no node, or for a model with strengths, or obstacles whose motion a function
- *  computes, which several ranks cannot share yet; DEM_ERROR_MEMORY */
+ *  \return DEM_ERROR_MODEL if a rank owns no node, DEM_ERROR_MEMORY */
 dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model *whole,
                                const domain_model_shares *shares);
 
@@ -31,7 +30,7 @@ dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model 
 dem_status domain_model_deal(dem_model **out, const ranks *r, const dem_model *whole, const domain_model_shares *shares,
                              const dem_obstacle *obstacles, dem_index n_obstacles);
 
-/** How many rings of neighbours about what may touch obstacles ranks have in common. */
+/** How many rings of neighbours about what events may concern ranks have in common. */
 int domain_model_rings(const dem_lattice *lattice);
 
 #endif

@@ -345,6 +345,34 @@ void element_state_forget_nodes(element_state *s, dem_index n)
     while (s->n_damaged > n) s->node[s->damaged[--s->n_damaged]] = 0;
 }
 
+static void follow_springs(element_state *s, const element_state *part, const domain *d)
+{
+    for (dem_index k = 0; k < part->lattice->n_springs; k++) {
+        s->integrity[d->spring[k]] = part->integrity[k];
+        if (s->tension != NULL) s->tension[d->spring[k]] = part->tension[k];
+    }
+}
+
+static void follow_triangles(element_state *s, const element_state *part, const domain *d)
+{
+    for (dem_index t = 0; t < part->lattice->n_triangles; t++) {
+        s->triangle[d->triangle[t]] = part->triangle[t];
+        if (s->level == NULL) continue;
+        s->level[d->triangle[t]] = part->level[t];
+        s->left[d->triangle[t]] = part->left[t];
+    }
+}
+
+void element_state_follow_part(element_state *s, const element_state *part, const domain *d)
+{
+    element_state_forget_nodes(s, 0);
+    for (dem_index k = 0; k < part->n_damaged; k++) damage(s, d->number[part->damaged[k]]);
+    follow_springs(s, part, d);
+    follow_triangles(s, part, d);
+    s->n_broken = part->n_broken;
+    s->n_softenings = part->n_softenings;
+}
+
 /* ---- what is gone ---- */
 
 double element_state_damage(const element_state *s, dem_index triangle)

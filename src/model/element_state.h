@@ -7,6 +7,7 @@
 #ifndef DEM_MODEL_ELEMENT_STATE_H
 #define DEM_MODEL_ELEMENT_STATE_H
 
+#include "domain/domain.h"
 #include "elastic/softening.h"
 #include "elastic/springs.h"
 #include "elastic/triangles.h"
@@ -63,6 +64,11 @@ void element_state_soften(element_state *s, dem_index triangle);
  *  there were n. */
 void element_state_mend(element_state *s, dem_index element);
 void element_state_forget_nodes(element_state *s, dem_index n);
+
+/** Makes a state that is ready that of a part of its lattice, in which all is that is not whole.
+ *  \param part  ready, too
+ *  \param d     the numbers that the part's elements and nodes have in the lattice */
+void element_state_follow_part(element_state *s, const element_state *part, const domain *d);
 
 /** What is left of springs and of triangles, by the lattice's numbers.  \param s  NULL: all are whole */
 static inline springs_integrity element_state_springs(const element_state *s)

@@ -81,7 +81,9 @@ static dem_status prepare(dem_model **whole, int32_t **owner, const dem_private_
 
 static bool may_touch(const dem_model *whole, dem_private_touching touching)
 {
-    if (touching == DEM_PRIVATE_TOUCHING_UNKNOWN) return whole->n_bodies > 1 || whole->obstacles.n > 0;
+    const dem_lattice *l = &whole->lattice;
+    const bool breaks = l->strength != NULL || l->critical_stretch != NULL; /* and so is common anyway */
+    if (touching == DEM_PRIVATE_TOUCHING_UNKNOWN) return whole->n_bodies > 1 || whole->obstacles.n > 0 || breaks;
     return touching == DEM_PRIVATE_TOUCHING_SOME;
 }
 

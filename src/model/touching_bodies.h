@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What the surfaces of bodies in contact with each other depend on beside their nodes: the boundary of their triangles,
- * and sums over each body. A rank that has a part of a lattice cannot see either in its part. */
+ * and sums over each body. A rank that has a part of a lattice cannot see either in its part. What breaks changes that
+ * boundary, whether bodies touch each other or not. */
 #ifndef DEM_MODEL_TOUCHING_BODIES_H
 #define DEM_MODEL_TOUCHING_BODIES_H
 
@@ -15,6 +16,7 @@ typedef struct body_content {
 
 typedef struct touching_bodies {
     const domain *domain;   /* in which nodes and triangles have their numbers; NULL: the whole lattice */
+    bool has_all;           /* whether all sides of the whole are in the domain, so that bodies may touch each other */
     mesh_boundary boundary; /* of all bodies, when all is whole */
     dem_index n_bodies;
     body_content *bodies; /* [n_bodies] */

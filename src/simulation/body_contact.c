@@ -271,12 +271,17 @@ static const char *name_entry(dem_index k, char name[NAME_LENGTH])
 
 static const char of_fillings[] = "fillings";
 
-static dem_status save_fillings(const contact_surface *of, dem_checkpoint *checkpoint)
+/* \param d  in which nodes have their numbers, as in a checkpoint they have those of the whole */
+static dem_status save_fillings(const contact_surface *of, const domain *d, dem_checkpoint *checkpoint)
 {
     const dem_index n = contact_surface_squeezed(of, NULL);
     squeezed_filling *list = malloc((size_t)(n + 1) * sizeof *list);
     CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for %lld fillings", (long long)n);
     (void)contact_surface_squeezed(of, list);
+    for (dem_index k = 0; k < n; k++) {
+        list[k].first = domain_number(d, list[k].first);
+        list[k].second = domain_number(d, list[k].second);
+    }
     const dem_status status = dem_checkpoint_put(checkpoint, of_fillings, list, (size_t)n * sizeof *list);
     free(list);
     return status;
@@ -285,7 +290,8 @@ static dem_status save_fillings(const contact_surface *of, dem_checkpoint *check
 dem_status body_contact_save(const dem_simulation *s, dem_checkpoint *checkpoint)
 {
     char name[NAME_LENGTH];
-    if (s->surfaces != NULL && s->forces.elements != NULL) TRY(save_fillings(&s->surfaces->surface, checkpoint));
+    if (s->surfaces != NULL && s->forces.elements != NULL)
+        TRY(save_fillings(&s->surfaces->surface, s->model->domain, checkpoint));
     if (surface_contact_has_friction(s->surfaces))
         TRY(save_anchors(&s->surfaces->anchors, s->model->domain, of_bodies, checkpoint));
     for (dem_index k = 0; rigid_contact_has_friction(s->rigid) && k < s->rigid->n; k++)
@@ -294,7 +300,7 @@ dem_status body_contact_save(const dem_simulation *s, dem_checkpoint *checkpoint
 }
 
 /* The checkpoint of a run before there were any has none. Pairs in the lists are as of what was there before. */
-static dem_status restore_fillings(surface_contact *of, const dem_checkpoint *checkpoint)
+static dem_status restore_fillings(surface_contact *of, const domain *d, const dem_checkpoint *checkpoint)
 {
     size_t size = 0;
     const squeezed_filling *list = dem_checkpoint_find(checkpoint, of_fillings, &size);
@@ -302,7 +308,13 @@ static dem_status restore_fillings(surface_contact *of, const dem_checkpoint *ch
           size, of_fillings, sizeof *list);
     const dem_index n = list != NULL ? (dem_index)(size / sizeof *list) : 0;
     if (n > 0 || contact_surface_squeezed(&of->surface, NULL) > 0) surface_contact_forget(of);
-    return contact_surface_squeeze(&of->surface, list, n);
+    squeezed_filling *own = malloc((size_t)(n + 1) * sizeof *own);
+    CHECK(own != NULL, DEM_ERROR_MEMORY, "out of memory for %lld fillings", (long long)n);
+    for (dem_index k = 0; k < n; k++)
+        own[k] = (squeezed_filling){domain_node(d, list[k].first), domain_node(d, list[k].second), list[k].height};
+    const dem_status status = contact_surface_squeeze(&of->surface, own, n);
+    free(own);
+    return status;
 }
 
 static dem_status restore_bodies(dem_simulation *s, const dem_checkpoint *checkpoint, const double *y)
@@ -333,7 +345,7 @@ static dem_status restore_rigid(dem_simulation *s, dem_index k, const dem_checkp
 dem_status body_contact_restore(dem_simulation *s, const dem_checkpoint *checkpoint, const double *y)
 {
     body_contact_forget(s);
-    if (s->surfaces != NULL) TRY(restore_fillings(s->surfaces, checkpoint));
+    if (s->surfaces != NULL) TRY(restore_fillings(s->surfaces, s->model->domain, checkpoint));
     if (surface_contact_has_friction(s->surfaces)) TRY(restore_bodies(s, checkpoint, y));
     for (dem_index k = 0; rigid_contact_has_friction(s->rigid) && k < s->rigid->n; k++)
         TRY(restore_rigid(s, k, checkpoint, y));

@@ -16,8 +16,7 @@
 #include "simulation/pausing.h"
 #include "simulation/set_motion.h"
 
-static const char of_triangles[] = "broken triangles", of_springs[] = "broken springs", of_energy[] = "fracture",
-                  of_levels[] = "softened triangles", of_burials[] = "nodes buried";
+static const char of_energy[] = "fracture", of_burials[] = "nodes buried";
 
 /* ---- what depends on it ---- */
 
@@ -57,12 +56,26 @@ static void free_outline(surface *outline)
     free(outline);
 }
 
+/* Where the lattice is a part of one it does not know which of its sides are others' too: from the boundary of all. */
+static dem_status find_boundary_of_part(const mesh_boundary *whole, const element_state *next, mesh_boundary *out)
+{
+    const dem_lattice *l = next->lattice;
+    dem_index n = 0, *broken = malloc(((size_t)l->n_triangles + 1) * sizeof *broken);
+    CHECK(broken != NULL, DEM_ERROR_MEMORY, "out of memory for %lld triangles", (long long)l->n_triangles);
+    for (dem_index t = 0; t < l->n_triangles; t++)
+        if (next->triangle[t]) broken[n++] = t;
+    const dem_status status = mesh_boundary_follow(out, whole, next, broken, n);
+    free(broken);
+    return status;
+}
+
 /* Elements that break by themselves change the boundary that is known; else it is found anew. */
 static dem_status find_boundary(const dem_simulation *s, const element_state *next, mesh_boundary *out)
 {
     const fracture_source *breaks = &s->breaks;
     if (next == &s->elements && s->n_outside > 0 && s->n_outside + breaks->breaks.n == next->n_broken)
         return mesh_boundary_follow(out, &s->boundary, next, breaks->broken, breaks->breaks.n);
+    if (s->model->domain != NULL) return find_boundary_of_part(&s->model->touching->boundary, next, out);
     return mesh_boundary_create(out, &s->model->lattice, next->triangle);
 }
 
@@ -124,7 +137,9 @@ void breaking_destroy(dem_simulation *s)
 static dem_index most_in_step(const dem_simulation *s)
 {
     enum { SHARE = 20, FEW = 100 };
-    const dem_index n = s->model->lattice.n_triangles + s->model->lattice.n_springs;
+    const domain *d = s->model->domain;
+    const dem_lattice *l = &s->model->lattice;
+    const dem_index n = d != NULL ? d->n_triangles + d->n_springs : l->n_triangles + l->n_springs;
     return s->options.fixed_step > 0.0 ? -1 : n / SHARE > FEW ? n / SHARE : FEW;
 }
 
@@ -145,7 +160,7 @@ void breaking_check_step(dem_simulation *s)
 {
     s->at_break = false;
     if (!run_may_break(s)) return;
-    const double first = reduce_min(s->model->ranks, fracture_source_first(&s->breaks, &s->path, s->frame));
+    const double first = fracture_source_first(&s->breaks, &s->path, s->frame);
     s->at_break = first < s->path.end || (first == s->path.end && !s->at_event);
     if (!s->at_break) return;
     s->path.end = first;
@@ -170,10 +185,17 @@ dem_status breaking_follow(dem_simulation *s, const double *y)
     return DEM_OK;
 }
 
+/* The state in which a step ends that a break ends. Energies are of all nodes. */
+static void show_break(dem_simulation *s)
+{
+    dense_output_state(&s->path, s->path.end, s->frame);
+    if (s->surfaces != NULL && s->model->domain != NULL) s->shared.fill_ghosts(s->frame, s);
+}
+
 dem_status breaking_end_step(dem_simulation *s)
 {
     if (!s->at_break) return breaking_follow(s, s->path.y1);
-    dense_output_state(&s->path, s->path.end, s->frame);
+    show_break(s);
     dem_status status = fracture_source_break(&s->breaks, s->frame);
     if (status == DEM_OK) status = breaking_follow(s, s->frame);
     if (status != DEM_OK) fracture_source_undo(&s->breaks);
@@ -321,10 +343,10 @@ static void list_springs(const element_state *elements, unsigned char *flags)
 static dem_status save_levels(const element_state *elements, dem_checkpoint *checkpoint)
 {
     const size_t n = (size_t)elements->lattice->n_triangles;
-    if (elements->level != NULL) return dem_checkpoint_put(checkpoint, of_levels, elements->level, n);
+    if (elements->level != NULL) return dem_checkpoint_put(checkpoint, BREAKING_LEVELS, elements->level, n);
     unsigned char *none = calloc(n + 1, sizeof *none);
     CHECK(none != NULL, DEM_ERROR_MEMORY, "out of memory for what has softened in a checkpoint");
-    const dem_status status = dem_checkpoint_put(checkpoint, of_levels, none, n);
+    const dem_status status = dem_checkpoint_put(checkpoint, BREAKING_LEVELS, none, n);
     free(none);
     return status;
 }
@@ -334,18 +356,19 @@ dem_status breaking_save(const dem_simulation *s, dem_checkpoint *checkpoint)
 {
     const element_state *elements = s->forces.elements;
     const dem_lattice *l = &s->model->lattice;
-    const contact_burials *burials = &s->automaton.set.burials;
+    contact_burials burials = s->automaton.set.burials;
     if (elements == NULL) return DEM_OK;
+    if (burials.n > 0) burials.node = model_node(s->model, burials.node); /* none has the number 0 */
     unsigned char *flags = malloc((size_t)l->n_springs + 1);
     CHECK(flags != NULL, DEM_ERROR_MEMORY, "out of memory for what is broken in a checkpoint");
     list_springs(elements, flags);
-    dem_status status = dem_checkpoint_put(checkpoint, of_springs, flags, (size_t)l->n_springs);
+    dem_status status = dem_checkpoint_put(checkpoint, BREAKING_SPRINGS, flags, (size_t)l->n_springs);
     free(flags);
     if (status == DEM_OK)
-        status = dem_checkpoint_put(checkpoint, of_triangles, elements->triangle, (size_t)l->n_triangles);
+        status = dem_checkpoint_put(checkpoint, BREAKING_TRIANGLES, elements->triangle, (size_t)l->n_triangles);
     if (status == DEM_OK && l->softening != NULL) status = save_levels(elements, checkpoint);
-    if (status == DEM_OK) status = dem_checkpoint_put(checkpoint, of_burials, burials, sizeof *burials);
-    const double taken = reduce_sum(s->model->ranks, &s->fracture); /* rounded: every run goes on from there */
+    if (status == DEM_OK) status = dem_checkpoint_put(checkpoint, of_burials, &burials, sizeof burials);
+    const double taken = exact_sum_value(&s->fracture); /* rounded: every run goes on from there */
     return status == DEM_OK ? dem_checkpoint_put(checkpoint, of_energy, &taken, sizeof taken) : status;
 }
 
@@ -379,7 +402,7 @@ static dem_status find_levels(const dem_simulation *s, const dem_checkpoint *che
 {
     const dem_lattice *l = &s->model->lattice;
     if (l->softening == NULL) return DEM_OK;
-    TRY(find_bytes(checkpoint, of_levels, l->n_triangles, out));
+    TRY(find_bytes(checkpoint, BREAKING_LEVELS, l->n_triangles, out));
     for (dem_index k = 0; k < l->n_triangles; k++)
         CHECK((*out)[k] <= softening_levels(l->softening[k]), DEM_ERROR_IO,
               "triangle %lld in the checkpoint has softened %d times, it does so %d times at most", (long long)k,
@@ -394,6 +417,7 @@ static dem_status get_burials(dem_simulation *s, const dem_checkpoint *checkpoin
     size_t size;
     if (dem_checkpoint_find(checkpoint, of_burials, &size) != NULL)
         TRY(dem_checkpoint_get(checkpoint, of_burials, &read, sizeof read));
+    if (read.n > 0) read.node = domain_node(s->model->domain, read.node);
     bool possible = read.n >= 0 && read.node >= 0 && read.node < s->model->lattice.n_nodes && isfinite(read.t);
     for (int d = 0; d < STATE_DIM_MOST; d++) possible = possible && isfinite(read.x[d]);
     CHECK(possible, DEM_ERROR_IO, "the checkpoint has impossible numbers of %s", of_burials);
@@ -445,8 +469,8 @@ dem_status breaking_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
     double taken;
     TRY(get_burials(s, checkpoint));
     if (dem_checkpoint_find(checkpoint, of_energy, &size) == NULL) return DEM_OK;
-    TRY(find_flags(checkpoint, of_triangles, l->n_triangles, &flags.triangle));
-    TRY(find_flags(checkpoint, of_springs, l->n_springs, &flags.spring));
+    TRY(find_flags(checkpoint, BREAKING_TRIANGLES, l->n_triangles, &flags.triangle));
+    TRY(find_flags(checkpoint, BREAKING_SPRINGS, l->n_springs, &flags.spring));
     TRY(find_levels(s, checkpoint, &flags.level));
     TRY(dem_checkpoint_get(checkpoint, of_energy, &taken, sizeof taken));
     CHECK(isfinite(taken), DEM_ERROR_IO, "the energy of fracture in the checkpoint is not finite");

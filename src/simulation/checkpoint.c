@@ -34,19 +34,18 @@ typedef struct sizes {
     dem_index n_nodes, n_springs, n_triangles, n_segments, n_vertices, n_obstacles, n_candidates, n_unknowns;
 } sizes;
 
-/* Those of the whole where ranks share the model. */
+/* Those of the whole where ranks share the model: all have what may touch obstacles, if there are any. */
 static sizes sizes_of(const dem_simulation *s)
 {
     const dem_model *m = s->model;
     const domain *d = m->domain;
-    const bool has_edges = s->options.vertices && m->obstacles.n_vertices > 0;
     sizes all = {m->lattice.n_nodes,      m->lattice.n_springs, m->lattice.n_triangles, m->obstacles.n_segments,
                  m->obstacles.n_vertices, m->obstacles.n,       s->automaton.set.n,     state_velocities(&s->layout)};
     if (d == NULL) return all;
     all.n_nodes = d->n_whole;
     all.n_springs = d->n_springs;
     all.n_triangles = d->n_triangles;
-    all.n_candidates = d->n_surface_nodes + (has_edges ? d->n_surface_edges : 0);
+    if (m->obstacles.n == 0) all.n_candidates = d->n_surface_nodes;
     all.n_unknowns = state_velocities(&s->shared.whole);
     return all;
 }

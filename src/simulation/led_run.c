@@ -14,6 +14,7 @@
 #include "domain/gather.h"
 #include "model/shared_model.h"
 #include "simulation/rank_shares.h"
+#include "simulation/shared_breaks.h"
 #include "simulation/shared_problem.h"
 #include "simulation/step_parts.h"
 
@@ -163,6 +164,13 @@ static dem_status lead_event(void *context, const dem_simulation *part, const de
     return release(l, observers_event(&l->whole->observers, l->whole, event));
 }
 
+static dem_status lead_break(void *context, const dem_simulation *part, const dem_break *what)
+{
+    led_run *l = hold(context);
+    (void)part;
+    return release(l, observers_broken(&l->whole->observers, l->whole, what));
+}
+
 static dem_status lead_frame(void *context, const dem_simulation *part)
 {
     const frame_relay *f = context;
@@ -220,6 +228,13 @@ static dem_status follow_event(void *context, const dem_simulation *part, const 
     return follow_observer(context);
 }
 
+static dem_status follow_break(void *context, const dem_simulation *part, const dem_break *what)
+{
+    (void)part;
+    (void)what;
+    return follow_observer(context);
+}
+
 static dem_status follow_frame(void *context, const dem_simulation *part)
 {
     (void)part;
@@ -243,7 +258,8 @@ static dem_status observe(led_run *l, const rank_call *o)
                           .step = leads ? lead_step : follow_step,
                           .checkpoint = leads ? lead_checkpoint : follow_checkpoint,
                           .context = l};
-    if (o->number != 0) steps.event = leads ? lead_event : follow_event;
+    if (o->number & RANK_CALL_WITH_EVENTS) steps.event = leads ? lead_event : follow_event;
+    if (o->number & RANK_CALL_WITH_BREAKS) steps.broken = leads ? lead_break : follow_break;
     for (int k = 0; k < OBSERVERS_MOST; k++) {
         l->frames[k] = (frame_relay){l, k};
         const dem_observer frame = {.struct_size = sizeof frame,
@@ -328,7 +344,9 @@ static rank_call serve(led_run *l)
 static dem_status attach(led_run *l)
 {
     const observers *a = &l->whole->observers;
-    rank_call o = {.kind = RANK_CALL_OBSERVE, .number = observers_want_events(a)};
+    rank_call o = {.kind = RANK_CALL_OBSERVE};
+    if (observers_want_events(a)) o.number |= RANK_CALL_WITH_EVENTS;
+    if (observers_want_breaks(a)) o.number |= RANK_CALL_WITH_BREAKS;
     for (int k = 0; k < a->n; k++)
         if (a->members[k].observer.frame != NULL) o.intervals[k] = a->members[k].observer.interval;
     o = rank_call_send(&l->ranks, o);
@@ -383,7 +401,8 @@ void led_run_look_for_overlaps(dem_simulation *part)
     const dem_model *m = part->model;
     double *x = whole != NULL ? whole->frame : NULL;
     if (gather_rows(m->ranks, m->domain, part->layout.dim, part->y, x) != DEM_OK || whole == NULL) return;
-    whole->measures->has_state = false;
+    whole->measures->has_state = whole->measures->has_elements = false;
+    if (shared_breaks_show(whole, part) != DEM_OK || shared_breaks_look(whole) != DEM_OK) return;
     overlap_look(&whole->overlap, &whole->model->lattice, part->t, x);
 }
 

@@ -27,7 +27,7 @@
 /* Results from the state as seen; each is computed once, when it is first asked for. */
 typedef struct run_measures {
     bool has_events, has_state, has_contacts, has_held_forces, has_poses, has_survey, has_stress, has_energy,
-        has_bodies, has_surfaces, has_pairs, has_rigid, has_ghosts;
+        has_bodies, has_surfaces, has_pairs, has_rigid, has_ghosts, has_elements;
     dem_index n_contacts;
     const dem_contact *contacts; /* [n_contacts] closed ones */
     dem_energy energy;

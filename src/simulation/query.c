@@ -21,6 +21,7 @@
 #include "model/node_stress.h"
 #include "simulation/body_contact.h"
 #include "simulation/led_run.h"
+#include "simulation/shared_breaks.h"
 
 void query_at(dem_simulation *s, double t, const double *y)
 {
@@ -221,7 +222,7 @@ static dem_energy energy_of(const dem_simulation *s)
     measure_energy(s);
     dem_energy e = m->energy;
     e.impact = exact_sum_value(&ledger->impact);
-    e.fracture = reduce_sum(s->model->ranks, &s->fracture);
+    e.fracture = exact_sum_value(&s->fracture);
     e.friction += state_total_of(l, y, STATE_FRICTION);
     e.damping = state_total_of(l, y, STATE_DAMPING);
     e.projection = exact_sum_value(&ledger->projection);
@@ -257,23 +258,39 @@ dem_status dem_simulation_contact(const dem_simulation *s, dem_index contact, de
     return GIVE(dem_contact, out, &contacts[contact]);
 }
 
+/* What is broken at the time that is seen, as breaks are taken back with the other events: of a simulation that leads
+ * a run what the part of this rank has, in which all is that may break. NULL: all elements are whole. */
+static dem_status find_elements(const dem_simulation *s, const element_state **out)
+{
+    const dem_simulation *part = s->leads != NULL ? led_run_part(s->leads) : s;
+    (void)contact_of(part);
+    if (s->leads != NULL && !s->measures->has_elements) TRY(shared_breaks_show((dem_simulation *)s, part));
+    s->measures->has_elements = true;
+    *out = s->forces.elements;
+    return DEM_OK;
+}
+
 dem_status dem_simulation_strains(const dem_simulation *s, double *strain)
 {
+    const element_state *elements;
     TRY(check_pointers("dem_simulation_strains", s, strain));
+    TRY(find_elements(s, &elements));
     const double *x = all_seen_of(s);
     if (s->measures->has_stress)
-        stress_field_strains(s->field, s->forces.elements, strain);
+        stress_field_strains(s->field, elements, strain);
     else
-        springs_strains(&s->model->lattice, element_state_springs(s->forces.elements), x, strain);
+        springs_strains(&s->model->lattice, element_state_springs(elements), x, strain);
     return DEM_OK;
 }
 
 dem_status dem_simulation_forces(const dem_simulation *s, double *force)
 {
+    const element_state *elements;
     TRY(check_pointers("dem_simulation_forces", s, force));
+    TRY(find_elements(s, &elements));
     const double *x = all_seen_of(s);
-    springs_forces(&s->model->lattice, element_state_springs(s->forces.elements), x, force);
-    couplings_add_tensions(&s->model->couplings, element_state_triangles(s->forces.elements), x, force);
+    springs_forces(&s->model->lattice, element_state_springs(elements), x, force);
+    couplings_add_tensions(&s->model->couplings, element_state_triangles(elements), x, force);
     return DEM_OK;
 }
 
@@ -310,18 +327,12 @@ dem_status dem_simulation_force_at(const dem_simulation *s, dem_index spring, do
     return DEM_OK;
 }
 
-/* At the time that is seen: breaks are taken back with the other events. */
-static const element_state *elements_of(const dem_simulation *s)
-{
-    (void)contact_of(s);
-    return s->forces.elements;
-}
-
 dem_status dem_simulation_broken(const dem_simulation *s, unsigned char *triangle, unsigned char *spring)
 {
+    const element_state *elements;
     TRY(check_pointers("dem_simulation_broken", s, s));
+    TRY(find_elements(s, &elements));
     const dem_lattice *l = &s->model->lattice;
-    const element_state *elements = elements_of(s);
     for (dem_index k = 0; k < l->n_triangles && triangle != NULL; k++)
         triangle[k] = elements != NULL && elements->triangle[k];
     for (dem_index k = 0; k < l->n_springs && spring != NULL; k++)
@@ -331,9 +342,10 @@ dem_status dem_simulation_broken(const dem_simulation *s, unsigned char *triangl
 
 dem_status dem_simulation_damage(const dem_simulation *s, double *triangle, double *node)
 {
+    const element_state *elements;
     TRY(check_pointers("dem_simulation_damage", s, s));
+    TRY(find_elements(s, &elements));
     const dem_lattice *l = &s->model->lattice;
-    const element_state *elements = elements_of(s);
     for (dem_index t = 0; t < l->n_triangles && triangle != NULL; t++) triangle[t] = element_state_damage(elements, t);
     for (dem_index i = 0; i < l->n_nodes && node != NULL; i++) node[i] = element_state_node_damage(elements, i);
     return DEM_OK;
@@ -341,20 +353,25 @@ dem_status dem_simulation_damage(const dem_simulation *s, double *triangle, doub
 
 dem_status dem_simulation_fragments(const dem_simulation *s, dem_index *n_fragments, dem_index *fragment)
 {
+    const element_state *elements;
     TRY(check_whole("dem_simulation_fragments", s, n_fragments));
     TRY(check_whole("dem_simulation_fragments", s, fragment));
-    *n_fragments = fragments_find(&s->model->lattice, element_state_springs(elements_of(s)).pushed, fragment);
+    TRY(find_elements(s, &elements));
+    *n_fragments = fragments_find(&s->model->lattice, element_state_springs(elements).pushed, fragment);
     return DEM_OK;
 }
 
 dem_status dem_simulation_fracture(const dem_simulation *s, dem_fracture *out)
 {
+    const element_state *elements;
     dem_fracture seen;
     TRY(check_whole("dem_simulation_fracture", s, out));
-    const contact_burials *buried = &s->automaton.set.burials;
-    TRY(fragments_measure(&s->model->lattice, elements_of(s), &seen));
+    TRY(find_elements(s, &elements));
+    const dem_simulation *part = s->leads != NULL ? led_run_part(s->leads) : s;
+    const contact_burials *buried = &part->automaton.set.burials;
+    TRY(fragments_measure(&s->model->lattice, elements, &seen));
     seen.buried = buried->n;
-    seen.buried_node = buried->n > 0 ? buried->node : -1;
+    seen.buried_node = buried->n > 0 ? model_node(part->model, buried->node) : -1;
     seen.buried_t = buried->t;
     state_copy_row(&s->layout, seen.buried_x, buried->x);
     return GIVE(dem_fracture, out, &seen);
@@ -362,17 +379,21 @@ dem_status dem_simulation_fracture(const dem_simulation *s, dem_fracture *out)
 
 dem_status dem_simulation_crack_energy(const dem_simulation *s, double *energy)
 {
+    const element_state *elements;
     TRY(check_whole("dem_simulation_crack_energy", s, energy));
-    return crack_energy(&s->model->lattice, elements_of(s), energy);
+    TRY(find_elements(s, &elements));
+    return crack_energy(&s->model->lattice, elements, energy);
 }
 
 dem_status dem_simulation_stress(const dem_simulation *s, double *stress)
 {
+    const element_state *elements;
     TRY(check_pointers("dem_simulation_stress", s, stress));
+    TRY(find_elements(s, &elements));
     TRY(stress_prepare(&s->model->stress));
     const double *x = all_seen_of(s);
     const double area_min = s->measures->has_survey ? s->survey->strain.area_min : 0.0;
-    s->measures->has_stress = stress_field_take(s->field, s->forces.elements, x, area_min, stress);
+    s->measures->has_stress = stress_field_take(s->field, elements, x, area_min, stress);
     return DEM_OK;
 }
 
@@ -535,12 +556,14 @@ double dem_simulation_fastest(const dem_simulation *s)
     return diagnostics_fastest(s->model, seen_of(s) + state_velocities(&s->layout));
 }
 
+/* Of the end of a step, be that seen or not: ghosts are not all known there. */
 double query_residual(const dem_simulation *s)
 {
     const bool known = s->path.f1 != NULL && !s->at_event && s->path.end == s->path.t1;
     const dem_index v = state_velocities(&s->layout);
+    double *y = (double *)(uintptr_t)s->path.y1; /* the integrator's */
     if (!known) return (double)INFINITY;
-    const double *y = s->model->domain != NULL ? all_seen_of(s) : s->path.y1; /* whose ghosts are not all known */
+    if (s->model->domain != NULL) s->shared.fill_ghosts(y, (dem_simulation *)s);
     return diagnostics_residual(&s->forces, y, y + v, s->path.f1 + v);
 }
 
@@ -555,7 +578,8 @@ double dem_simulation_residual(const dem_simulation *s)
 double dem_simulation_ramp_time(const dem_simulation *s)
 {
     if (check_pointers("dem_simulation_ramp_time", s, s) != DEM_OK) return (double)NAN;
-    return load_clock_time(&s->boundaries.clock, s->seen_t);
+    const dem_simulation *part = s->leads != NULL ? led_run_part(s->leads) : s;
+    return load_clock_time(&part->boundaries.clock, s->seen_t);
 }
 
 const dem_checkpoint *dem_simulation_checkpoint(const dem_simulation *s)

@@ -11,7 +11,7 @@
 typedef enum rank_call_kind {
     RANK_CALL_GO_ON,   /* from an observer, with a status as `number` */
     RANK_CALL_CREATE,  /* a simulation; number 1: it goes on from a checkpoint */
-    RANK_CALL_OBSERVE, /* it, with frames at these intervals; number 1: with events, too */
+    RANK_CALL_OBSERVE, /* it, with frames at these intervals, and what the number says */
     RANK_CALL_ADVANCE, /* to t */
     RANK_CALL_GATHER,  /* positions and velocities */
     RANK_CALL_ENERGY,
@@ -27,6 +27,9 @@ typedef enum rank_call_kind {
     RANK_CALL_DROP,   /* the simulation */
     RANK_CALL_END     /* no more calls; `number` is for the program */
 } rank_call_kind;
+
+/* Bits: what observers want beside steps and frames. */
+enum { RANK_CALL_WITH_EVENTS = 1, RANK_CALL_WITH_BREAKS = 2 };
 
 typedef struct rank_call {
     rank_call_kind kind;

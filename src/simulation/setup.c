@@ -126,7 +126,8 @@ static dem_status check_shared(const dem_simulation *s)
 {
     const dem_options *o = &s->options;
     if (s->model->domain == NULL) return DEM_OK;
-    CHECK(o->bodies == DEM_BODIES_NONE || s->model->touching != NULL, DEM_ERROR_ARGUMENT,
+    CHECK(o->bodies == DEM_BODIES_NONE || (s->model->touching != NULL && s->model->touching->has_all),
+          DEM_ERROR_ARGUMENT,
           "bodies touch in a model of which ranks share no surfaces: a body alone without obstacles does not touch "
           "itself yet");
     return DEM_OK;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Of the entries of a checkpoint only the state differs from rank to rank: rows of nodes, and behind them quadratures,
- * which all ranks have alike. */
+ * which all ranks have alike; and what is broken, of which all have the same by other numbers. */
 #include "simulation/shared_checkpoint.h"
 
 #include <stdlib.h>
@@ -10,6 +10,7 @@
 #include "base/reduce.h"
 #include "base/status.h"
 #include "domain/gather.h"
+#include "simulation/shared_breaks.h"
 
 static const char entry[] = "state";
 
@@ -30,12 +31,13 @@ dem_status shared_checkpoint_gather(const dem_simulation *s, dem_checkpoint *che
     if (status == DEM_OK && is_root) {
         state_copy_quadratures(whole, of, s->y, &s->layout);
         status = dem_checkpoint_put(checkpoint, entry, whole, n * sizeof *whole);
+        if (status == DEM_OK) status = shared_breaks_expand(s, checkpoint);
     }
     free(whole);
     return reduce_status(m->ranks, status, 0.0);
 }
 
-/* The rows of own nodes and ghosts. */
+/* The rows of all nodes here. */
 static dem_status cut_state(const dem_simulation *s, dem_checkpoint *part)
 {
     const domain *d = s->model->domain;
@@ -63,5 +65,6 @@ dem_status shared_checkpoint_scatter(const dem_simulation *s, const dem_checkpoi
     const ranks *r = s->model->ranks;
     TRY(reduce_status(r, r->rank == 0 ? checkpoint_entries_copy(part, whole) : DEM_OK, 0.0));
     TRY(checkpoint_entries_share(r, whole, part));
-    return reduce_status(r, cut_state(s, part), 0.0);
+    TRY(reduce_status(r, cut_state(s, part), 0.0));
+    return reduce_status(r, shared_breaks_cut(s, part), 0.0);
 }

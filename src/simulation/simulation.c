@@ -76,7 +76,7 @@ static dem_status report_one_event(dem_simulation *s)
 
 static dem_status report_one_break(dem_simulation *s)
 {
-    const dem_break what = break_list_at(&s->breaks.breaks, s->n_known++);
+    const dem_break what = break_list_at(&s->breaks.breaks, s->n_known++, s->model);
     TRY(show_inside(s, what.t));
     return observers_broken(&s->observers, s, &what);
 }
@@ -105,7 +105,7 @@ static dem_status report_breaks(dem_simulation *s, const break_list *breaks, dem
     if (from == breaks->n || !observers_want_breaks(&s->observers)) return DEM_OK;
     TRY(show_state(s));
     for (dem_index k = from; k < breaks->n; k++) {
-        const dem_break what = break_list_at(breaks, k);
+        const dem_break what = break_list_at(breaks, k, s->model);
         status = status_first(status, observers_broken(&s->observers, s, &what));
     }
     return reduce_status(s->model->ranks, status, 0.0);
@@ -416,7 +416,7 @@ static bool events_moved_rigid(const dem_simulation *s)
     return s->model->rigid.n > 0 && run_had_events(s);
 }
 
-/* Whether elements may have broken in the step, on any rank: as events, or with `exact` at its end. */
+/* Whether elements may have broken in the step: as events, or with `exact` at its end. */
 static bool may_have_broken(const dem_simulation *s)
 {
     return run_may_break(s) && (run_had_events(s) || !run_is_local(s));
@@ -432,8 +432,8 @@ static dem_status commit_step(dem_simulation *s)
     const bool breaks = may_have_broken(s);
     if (breaks) TRY(reduce_status(s->model->ranks, breaking_end_step(s), 0.0));
     /* From here on the end of the step is the state: y and t. */
-    const bool broken = breaks && reduce_any(s->model->ranks, fracture_source_has_broken(&s->breaks));
-    const bool failed = breaks && reduce_any(s->model->ranks, fracture_source_has_failed(&s->breaks));
+    const bool broken = breaks && fracture_source_has_broken(&s->breaks);
+    const bool failed = breaks && fracture_source_has_failed(&s->breaks);
     const bool moved = settle_step(s), paused = pausing_end_step(s, broken);
     body_contact_end_step(s);
     TRY(body_contact_settle(s, s->y));

@@ -336,28 +336,6 @@ TEST(rings_reach_as_far_as_the_correction_for_an_event)
         }
 }
 
-static void assert_refused(const dem_lattice *l, const char *message)
-{
-    CLEANUP(free_memory) int32_t *owner = shared_owners(l, N_RANKS);
-    CLEANUP(free_model) dem_model *whole = support_model(l, NULL, 0);
-    for (int deals = 0; deals < 2; deals++) {
-        shared s = {.whole = whole, .owner = owner, .deals = deals};
-        rank_threads_run(N_RANKS, create, &s);
-        for (int k = 0; k < N_RANKS; k++) {
-            assert_int_equal(s.status[k], DEM_ERROR_MODEL);
-            assert_string_equal(s.messages[k], message);
-        }
-    }
-}
-
-TEST(what_ranks_cannot_share_is_refused)
-{
-    CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
-    l.strength = malloc((size_t)l.n_triangles * sizeof *l.strength);
-    for (dem_index k = 0; k < l.n_triangles; k++) l.strength[k] = 1e5;
-    assert_refused(&l, "5 ranks cannot share a model that may break yet");
-}
-
 /* One rank alone has no node: all hear of it. */
 TEST(a_failure_of_one_rank_is_that_of_all)
 {

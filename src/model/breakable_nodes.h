@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What of a lattice may break by itself, and what depends on that. */
+#ifndef DEM_MODEL_BREAKABLE_NODES_H
+#define DEM_MODEL_BREAKABLE_NODES_H
+
+#include <stdbool.h>
+
+#include <dem/dem.h>
+
+/** Whether an element may break at all: it has a limit, and its body is not rigid. Elements are numbered: first the
+ *  triangles of a lattice, then its springs. */
+bool breakable_element(const dem_lattice *lattice, dem_index element);
+
+/** Marks the nodes of elements that may break, and all that springs and triangles join to them, as far as these go.
+ *  \param lattice      that of a model
+ *  \param[out] marked  [n_nodes] 1: such a node; else 0
+ *  \return DEM_ERROR_MEMORY */
+dem_status breakable_nodes_mark(const dem_lattice *lattice, unsigned char *marked);
+
+#endif
