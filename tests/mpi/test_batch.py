@@ -54,6 +54,22 @@ TOUCHING = """
 &solver checkpoint_steps = 20 /
 &output name = 'free', frame_interval = 1e-4, fields = 'displacement', 'stress', 'contact' /
 """
+# A brittle block, damped by its springs, whose strengths scatter, with a crack, between a disc that does not break and a
+# floor: what softens, breaks, and touches.
+BREAKING = """
+&run t_end = 1e-3 /
+&material name = 'soft', youngs_modulus = 1e7, density = 1050, friction = 0.4 /
+&material name = 'brittle', youngs_modulus = 1e7, density = 1050, friction = 0.3, fracture = 'stress', strength = 1.2e5,
+    fracture_energy = 35, damping_time = 4e-6 /
+&body shape = 'disc', radius = 0.04, spacing = 4e-3, position = 0, 0.0925, velocity = 0, -12, material = 'soft' /
+&body shape = 'rectangle', size = 0.08, 0.05, spacing = 6e-3, position = 0, 0.0003, velocity = 0, -8, jitter = 0.2,
+    material = 'brittle' /
+&crack points = -0.05, 0.0261, -0.02, 0.0261 /
+&obstacle points = -0.2, 0, 0.2, 0, friction = 0.3 /
+&solver checkpoint_steps = 10 /
+&output name = 'free', frame_interval = 1e-4, peak_every = 3,
+    fields = 'displacement', 'stress', 'principal', 'strain', 'force', 'fragment', 'damage', 'contact' /
+"""
 
 
 class UnderMpirun(unittest.TestCase):
@@ -121,6 +137,7 @@ class Runs(unittest.TestCase):
         (self.folder / "free.nml").write_text(FREE, encoding="ascii")
         (self.folder / "plate.nml").write_text(PLATE, encoding="ascii")
         (self.folder / "touching.nml").write_text(TOUCHING, encoding="ascii")
+        (self.folder / "breaking.nml").write_text(BREAKING, encoding="ascii")
 
     def command(self, n, outdir, *more, deck="free.nml"):
         launcher = [] if n == 0 else [MPIRUN, "-n", str(n), *self.within]
@@ -230,6 +247,38 @@ class Touching(Runs):
             self.assertEqual("resumed" in log, k > 0)
             self.assertGreater(self.result("parts")["pairs"], 0)
         self.assert_same("one", "parts")
+
+
+class Breaking(Runs):
+    def test_any_number_of_ranks_goes_on_with_what_is_broken(self):
+        self.assertEqual(self.run_on(0, "one", deck="breaking.nml")[0], 0)
+        for k, n in enumerate((3, 0, 2)):
+            settings = ("--set", f"run.t_end={(k + 8) * 1e-4}")
+            code, log, errors = self.run_on(n, "parts", *settings, deck="breaking.nml")
+            self.assertEqual(code, 0, errors)
+            self.assertEqual("resumed" in log, k > 0)
+            self.assertGreater(self.result("parts")["broken_triangles"], 0)
+        self.assert_same("one", "parts")
+
+
+class LongerBreaking(Runs):
+    COARSE = {"brittle_disc": (6e-3, 8e-4), "kalthoff": (4e-3, 9e-5), "brazilian_disc": (4e-3, 2e-3),
+              "pulled_strip": (4e-3, 6e-3)}
+
+    def test_files_are_those_of_one_process(self):
+        for name, (spacing, t_end) in self.COARSE.items():
+            deck = str(INPUTS / f"{name}.nml")
+            settings = ("--set", "output.name=free", "--set", f"body.spacing={spacing}", "--set", f"run.t_end={t_end}",
+                        "--set", "solver.checkpoint_steps=50")
+            if name == "kalthoff":  # which is tougher where it is coarser
+                settings += ("--set", "material.strength=5e8")
+            self.assertEqual(self.run_on(0, name, *settings, deck=deck)[0], 0)
+            self.assertGreater(self.result(name)["broken_triangles"], 0)
+            for n, threads in ((1, 1), (2, 2), (7, 1)):
+                code, _, errors = self.run_on(n, f"{name}{n}", *settings, "--set", f"solver.threads={threads}",
+                                              deck=deck)
+                self.assertEqual(code, 0, errors)
+                self.assert_same(name, f"{name}{n}")
 
 
 class LongerTouching(Runs):
