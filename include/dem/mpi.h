@@ -4,10 +4,10 @@
  *  itself has no MPI.
  *
  *  Each rank has a model and a simulation of its part: its own nodes; those near what may touch obstacles, on surfaces
- *  of bodies that may touch each other, and of rigid bodies, whoever owns them; and as ghosts those of other ranks that
- *  a spring or a triangle joins to one of these, in large parts further rings of them (dem_model_part()). What goes on
- *  is *collective*: all ranks make the same calls in the same order, with the same arguments, and wait for each other
- *  in them. These are
+ *  of bodies that may touch each other, of rigid bodies, and of those that may break, whoever owns them; and as ghosts
+ *  those of other ranks that a spring or a triangle joins to one of these, in large parts further rings of them
+ *  (dem_model_part()). What goes on is *collective*: all ranks make the same calls in the same order, with the same
+ *  arguments, and wait for each other in them. These are
  *
  *      dem_model_create_mpi(), and dem_model_destroy() of such a model
  *      dem_simulation_create(), dem_simulation_resume(), dem_simulation_observe(), dem_simulation_advance()
@@ -31,15 +31,17 @@
  *
  *  All ranks have all contacts, whose nodes have their numbers in the whole lattice: events, counts of them, contacts,
  *  loads of obstacles, dem_simulation_surfaces() and dem_simulation_pair() are the same on each, and a rank may ask for
- *  these, for contact forces and pressures of its part, and watch events, by itself.
+ *  these, for contact forces and pressures of its part, and watch events, by itself. So it is with breaks, whose
+ *  elements have their numbers in the whole lattice, and with what is broken in its part.
  *
  *  Functions of the program, external forces and motions of obstacles, are called on each rank, by that rank alone, and
  *  answer alike on all: dem_force and dem_motion say what they are asked. A failure of one is that of all ranks.
  *
- *  Ranks cannot share yet, and refuse: what may break; a body alone without obstacles that touches itself
+ *  Ranks cannot share yet, and refuse: a body alone without obstacles that touches itself unless it may break
  *  (DEM_ERROR_ARGUMENT by dem_simulation_create()), as the model would have to be shared for it before options are
- *  known; trajectories, overlaps of bodies and their fragments, which are of the whole lattice at once, that no rank
- *  keeps. `mpirun dem_batch` has all but the first: there rank 0 knows the options, and has the whole besides its part.
+ *  known; what a program breaks; trajectories, overlaps of bodies and their fragments, which are of the whole lattice
+ *  at once, that no rank keeps. `mpirun dem_batch` has all but what a program breaks: there rank 0 knows the options,
+ *  and has the whole besides its part.
  *
  *  MPI is initialised and finalised by the program: models are created after the one and destroyed before the other.
  *  All calls come from one thread, that of MPI_Init() or MPI_Init_thread() unless MPI has MPI_THREAD_SERIALIZED. A

@@ -118,8 +118,8 @@ int domain_model_rings(const dem_lattice *lattice)
     return lattice->viscosity != NULL ? 7 : 4;
 }
 
-/* \param boundary  of surfaces that may touch each other; NULL: none do. Without obstacles, and what may break, there are
- *  no events, and so no rings */
+/* \param boundary  of surfaces that may touch each other; NULL: none do. Without obstacles, and what may break, there
+ *  are no events, and so no rings */
 static dem_status find_common(const dem_model *whole, const mesh_boundary *boundary, unsigned char *is_common)
 {
     const dem_lattice *l = &whole->lattice;

@@ -8,8 +8,9 @@
 
 /** Whether bodies touch each other, or themselves, in simulations of a model: all ranks have their surfaces then. */
 typedef enum dem_private_touching {
-    DEM_PRIVATE_TOUCHING_UNKNOWN, /* they may if there are several, or obstacles, for which all ranks have most of the
-                                     surfaces anyway; one body in free space does not touch itself */
+    DEM_PRIVATE_TOUCHING_UNKNOWN, /* they may if there are several, or obstacles, or limits of elements, for which all
+                                     ranks have most of the surfaces anyway; else one body in free space does not touch
+                                     itself */
     DEM_PRIVATE_TOUCHING_NONE,
     DEM_PRIVATE_TOUCHING_SOME
 } dem_private_touching;

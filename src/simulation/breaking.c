@@ -15,6 +15,7 @@
 #include "simulation/body_contact.h"
 #include "simulation/pausing.h"
 #include "simulation/set_motion.h"
+#include "simulation/shared_breaks.h"
 
 static const char of_energy[] = "fracture", of_burials[] = "nodes buried";
 

@@ -5,11 +5,6 @@
 
 #include "simulation/private.h"
 
-/* Entries of a checkpoint: a byte for each triangle, or spring, of the model. */
-#define BREAKING_TRIANGLES "broken triangles"
-#define BREAKING_SPRINGS   "broken springs"
-#define BREAKING_LEVELS    "softened triangles"
-
 /** Puts what is broken, and the energy that it took, into a checkpoint. */
 dem_status breaking_save(const dem_simulation *s, dem_checkpoint *checkpoint);
 

@@ -6,7 +6,6 @@
 
 #include "base/status.h"
 #include "model/breakable_nodes.h"
-#include "simulation/breaking.h"
 
 /* ---- checkpoints ---- */
 

@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is broken where ranks share a model: every rank has all that may break, and its state. Checkpoints have it by the
- * numbers of the whole lattice, and so has the simulation of the whole that leads a run. */
+/* What is broken where ranks share a model: every rank has all that may break, and its state. Checkpoints have it by
+ * the numbers of the whole lattice, and so has the simulation of the whole that leads a run. */
 #ifndef DEM_SIMULATION_SHARED_BREAKS_H
 #define DEM_SIMULATION_SHARED_BREAKS_H
 
 #include "simulation/private.h"
+
+/* Entries of a checkpoint: a byte for each triangle, or spring, of the model. */
+#define BREAKING_TRIANGLES "broken triangles"
+#define BREAKING_SPRINGS   "broken springs"
+#define BREAKING_LEVELS    "softened triangles"
 
 /** Makes a checkpoint's flags of the part those of the whole; on any rank, by itself.  \return DEM_ERROR_MEMORY */
 dem_status shared_breaks_expand(const dem_simulation *s, dem_checkpoint *checkpoint);

@@ -76,8 +76,7 @@ static dem_lattice make_brittle(kind k)
     return l;
 }
 
-/* So fine that not all of it is common; it comes first, so that what breaks has other numbers on ranks than in the whole.
- */
+/* So fine that not all of it is common. It comes first: what breaks has other numbers on ranks than in the whole. */
 static void add_tough(dem_lattice *l, kind k)
 {
     const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
