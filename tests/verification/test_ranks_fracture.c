@@ -424,6 +424,60 @@ TEST(led_runs_show_breaks_and_go_on_with_them)
     }
 }
 
+/* ---- what is refused ---- */
+
+/* Stretched at the start by more than springs stand: all ranks say so of the spring that a process alone names. */
+TEST(messages_name_elements_of_the_whole)
+{
+    scene s;
+    outcome all[3];
+    char message[TEXT];
+    open_scene(&s, STRETCHED, DEM_METHOD_FEHLBERG45, DEM_CONTACT_LOCAL);
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
+    assert_ok(dem_lattice_append(&l, dem_model_lattice(s.model)));
+    for (dem_index i = 0; i < l.n_nodes; i++)
+        if (l.body[i] == 1) l.position[2 * i] *= 1.03;
+    dem_model_destroy(s.model);
+    s.model = support_model(&l, NULL, 0);
+    CLEANUP(free_memory) int32_t *owner = malloc((size_t)l.n_nodes * sizeof *owner);
+    assert_ok(partition_bisect(&l, 3, owner));
+    make_outcome(&all[0], &l);
+    assert_int_equal(run_led(s.model, &s, NULL, NULL, &all[0]), DEM_ERROR_MODEL);
+    (void)snprintf(message, TEXT, "%s", dem_status_message());
+    assert_non_null(strstr(message, "beyond its critical stretch"));
+    for (int k = 1; k < 3; k++) all[k] = beside(&all[0]);
+    rank_threads_run(3, run_rank, &(shared_run){&s, {.owner = owner, .touching = true}, all});
+    for (int k = 0; k < 3; k++) assert_string_equal(all[k].failure, message);
+    for (int k = 1; k < 3; k++) free_breaks(&all[k]);
+    free_outcome(&all[0]);
+    dem_model_destroy(s.model);
+}
+
+/* Not all ranks have what does not break by itself. */
+TEST(what_a_program_has_broken_elsewhere_is_refused)
+{
+    static const dem_index first = 0;
+    scene s;
+    outcome from, led;
+    dem_simulation *alone;
+    open_scene(&s, SHATTERED, DEM_METHOD_FEHLBERG45, DEM_CONTACT_LOCAL);
+    make_outcome(&from, dem_model_lattice(s.model));
+    make_outcome(&led, dem_model_lattice(s.model));
+    assert_ok(dem_simulation_create(&alone, s.model, &s.options));
+    assert_ok(dem_simulation_break(alone, &first, 1, NULL, 0));
+    assert_ok(dem_simulation_advance(alone, 1e-4));
+    assert_ok(dem_checkpoint_create(&from.kept));
+    assert_ok(checkpoint_entries_copy(from.kept, dem_simulation_checkpoint(alone)));
+    rank_threads_run(2, lead_as_rank, &(led_scene){&s, &from, &led});
+    assert_string_equal(led.failure,
+                        "in the checkpoint 1 of the broken triangles were broken by a program, which ranks cannot "
+                        "share yet");
+    dem_simulation_destroy(alone);
+    free_outcome(&from);
+    free_outcome(&led);
+    dem_model_destroy(s.model);
+}
+
 int main(int argc, char **argv)
 {
     is_long = argc > 1 && strcmp(argv[1], "long") == 0;
