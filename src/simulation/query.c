@@ -556,15 +556,25 @@ double dem_simulation_fastest(const dem_simulation *s)
     return diagnostics_fastest(s->model, seen_of(s) + state_velocities(&s->layout));
 }
 
-/* Of the end of a step, be that seen or not: ghosts are not all known there. */
+/* Of the end of a step.  \param y  the state there, with ghosts */
+static double residual_of(const dem_simulation *s, const double *y)
+{
+    const dem_index v = state_velocities(&s->layout);
+    return diagnostics_residual(&s->forces, y, y + v, s->path.f1 + v);
+}
+
+static bool is_residual_known(const dem_simulation *s)
+{
+    return s->path.f1 != NULL && !s->at_event && s->path.end == s->path.t1;
+}
+
+/* Something else may be seen, and the ghosts of the integrator's state are not all known. */
 double query_residual(const dem_simulation *s)
 {
-    const bool known = s->path.f1 != NULL && !s->at_event && s->path.end == s->path.t1;
-    const dem_index v = state_velocities(&s->layout);
-    double *y = (double *)(uintptr_t)s->path.y1; /* the integrator's */
-    if (!known) return (double)INFINITY;
+    double *y = (double *)(uintptr_t)s->path.y1;
+    if (!is_residual_known(s)) return (double)INFINITY;
     if (s->model->domain != NULL) s->shared.fill_ghosts(y, (dem_simulation *)s);
-    return diagnostics_residual(&s->forces, y, y + v, s->path.f1 + v);
+    return residual_of(s, y);
 }
 
 double dem_simulation_residual(const dem_simulation *s)
@@ -572,7 +582,8 @@ double dem_simulation_residual(const dem_simulation *s)
     if (check_pointers("dem_simulation_residual", s, s) != DEM_OK) return (double)NAN;
     double of_parts = 0.0;
     if (s->leads != NULL) return led_run_ask(s, RANK_CALL_RESIDUAL, 0, &of_parts) == DEM_OK ? of_parts : (double)NAN;
-    return s->seen == s->y ? query_residual(s) : (double)INFINITY;
+    if (s->seen != s->y || !is_residual_known(s)) return (double)INFINITY;
+    return residual_of(s, s->model->domain != NULL ? all_seen_of(s) : s->path.y1);
 }
 
 double dem_simulation_ramp_time(const dem_simulation *s)
