@@ -308,8 +308,20 @@ static void look_ahead(layout *l, dem_index block, int32_t place)
     if (ahead > l->ahead) l->ahead = ahead;
 }
 
-/* The items of the triangles at each node: the other two corners, and the coefficients. A triangle without guard has
- * the onset -inf, which no area is below. */
+/* The triangle in slot p of the row of node i, in a lane: the other two corners, and the coefficients. A triangle
+ * without guard has the onset -inf, which no area is below. */
+static lane_item triangle_of(const builder *b, int lane, dem_index i, dem_index p)
+{
+    const triangles *t = b->t;
+    const int32_t next = place_of(b, t->next[p]), last = place_of(b, t->last[p]);
+    const double rest_area = triangles_rest_area(t, i, p);
+    const double onset = triangles_guard(t, p) > 0.0 ? TRIANGLES_GUARD_ONSET * rest_area : -INFINITY;
+    const double kappa = t->area_stiffness_of != NULL ? t->area_stiffness_of[t->triangle[p]] : 0.0;
+    return (lane_item){
+        .at = next, .to = last, .base = next - lane, .last = last - lane, .set = {rest_area, onset, kappa}};
+}
+
+/* The items of the triangles at each node. */
 static void list_corners(builder *b, dem_index block)
 {
     const triangles *t = b->t;
@@ -317,29 +329,59 @@ static void list_corners(builder *b, dem_index block)
         const dem_index i = layout_node(b->l, LAYOUT_LANES * block + lane);
         b->groups.n[lane] = t->row[i + 1] - t->row[i];
         for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-            const int32_t next = place_of(b, t->next[p]), last = place_of(b, t->last[p]);
-            look_ahead(b->l, block, next);
-            look_ahead(b->l, block, last);
-            const double rest_area = triangles_rest_area(t, i, p);
-            const double onset = triangles_guard(t, p) > 0.0 ? TRIANGLES_GUARD_ONSET * rest_area : -INFINITY;
-            const double kappa = t->area_stiffness_of != NULL ? t->area_stiffness_of[t->triangle[p]] : 0.0;
-            b->groups.items[lane * b->groups.most + p - t->row[i]] = (lane_item){
-                .at = next, .to = last, .base = next - lane, .last = last - lane, .set = {rest_area, onset, kappa}};
+            const lane_item own = triangle_of(b, lane, i, p);
+            look_ahead(b->l, block, own.at);
+            look_ahead(b->l, block, own.to);
+            b->groups.items[lane * b->groups.most + p - t->row[i]] = own;
         }
     }
+}
+
+/* Ascending by the next corner, so that lanes with equal neighbours have the same order. */
+static void insert(lane_item *items, dem_index n, lane_item own)
+{
+    for (; n > 0 && items[n - 1].at > own.at; n--) items[n] = items[n - 1];
+    items[n] = own;
+}
+
+/* Those of the triangles of which it is the lowest corner. */
+static void list_lowest(builder *b, dem_index block)
+{
+    const triangles *t = b->t;
+    for (int lane = 0; lane < LAYOUT_LANES; lane++) {
+        const dem_index place = LAYOUT_LANES * block + lane, i = layout_node(b->l, place);
+        b->groups.n[lane] = 0;
+        for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+            const lane_item own = triangle_of(b, lane, i, p);
+            if (own.at > place && own.to > place)
+                insert(b->groups.items + lane * b->groups.most, b->groups.n[lane]++, own);
+        }
+    }
+}
+
+static dem_status lay_triangles(builder *b, layout_part *part, dem_index block)
+{
+    const int32_t row = (int32_t)(LAYOUT_LANES * block);
+    for (const lane_item *leader = lane_groups_take(&b->groups); leader != NULL; leader = lane_groups_take(&b->groups))
+        TRY(add_triangles(b, leader, row, &b->l->areas));
+    return close_block(b, part, block);
 }
 
 /* Entries for triangles: always the k-th triangle of each node in the order of its row, as triangles_force() sums
  * them. */
 static dem_status lay_corners(builder *b, dem_index block)
 {
-    layout *l = b->l;
-    const int32_t row = (int32_t)(LAYOUT_LANES * block);
     list_corners(b, block);
     lane_groups_by_slot(&b->groups);
-    for (const lane_item *leader = lane_groups_take(&b->groups); leader != NULL; leader = lane_groups_take(&b->groups))
-        TRY(add_triangles(b, leader, row, &l->areas));
-    return close_block(b, &l->corners, block);
+    return lay_triangles(b, &b->l->corners, block);
+}
+
+/* In what order triangles are looked at does not matter. */
+static dem_status lay_lowest(builder *b, dem_index block)
+{
+    list_lowest(b, block);
+    lane_groups_choose(&b->groups);
+    return lay_triangles(b, &b->l->lowest, block);
 }
 
 /* ---- all blocks ---- */
@@ -368,10 +410,12 @@ static dem_status lay_blocks(builder *b)
         list_coupling_terms(b, block);
         TRY(lay_terms(b, &l->coupling_terms, block));
         TRY(lay_corners(b, block));
+        TRY(lay_lowest(b, block));
     }
     l->ring_length = ring_streams_length(&b->ring);
-    intern *const pools[] = {&l->springs.entries,        &l->terms.entries, &l->corners.entries, &l->couplings.entries,
-                             &l->coupling_terms.entries, &l->bonds,         &l->areas,           &l->couples};
+    intern *const pools[] = {
+        &l->springs.entries,        &l->terms.entries, &l->corners.entries, &l->lowest.entries, &l->couplings.entries,
+        &l->coupling_terms.entries, &l->bonds,         &l->areas,           &l->couples};
     for (size_t k = 0; k < sizeof pools / sizeof *pools; k++) TRY(intern_settle(pools[k]));
     return DEM_OK;
 }
@@ -444,7 +488,7 @@ static dem_status allocate(builder *b)
     b->force = malloc(((size_t)b->s->n_springs + 1) * sizeof *b->force);
     b->corner_force = malloc((3 * (size_t)b->c->n + 1) * sizeof *b->corner_force);
     b->slot = malloc(((size_t)most + 1) * sizeof *b->slot);
-    layout_part *const parts[] = {&l->springs, &l->terms, &l->corners, &l->couplings, &l->coupling_terms};
+    layout_part *const parts[] = {&l->springs, &l->terms, &l->corners, &l->lowest, &l->couplings, &l->coupling_terms};
     bool complete = lane_groups_create(&b->groups, most) && b->force && b->corner_force && b->slot;
     for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
         *parts[k] = (layout_part){calloc(n, sizeof(intern_span)), {.unit = sizeof(layout_entry)}};
@@ -504,6 +548,7 @@ void layout_free(layout *l)
     free_part(&l->springs);
     free_part(&l->terms);
     free_part(&l->corners);
+    free_part(&l->lowest);
     free_part(&l->couplings);
     free_part(&l->coupling_terms);
     intern_free(&l->bonds);

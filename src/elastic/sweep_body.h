@@ -262,10 +262,12 @@ INLINE pairs accelerate(const pass *p, dem_index block, laws acting, pairs force
     const sweep *s = p->sweep;
     const layout *l = s->layout;
     const dem_index row = LAYOUT_LANES * block;
-    unsigned guarded = 0;
-    if (l->corners.span[block].first < l->corners.span[block].end)
-        force = pairs_add(force, sum_corners(s, block, acting, &guarded));
-    s->guarded[block] = (uint8_t)guarded;
+    if (!s->looks_at_lowest) {
+        unsigned guarded = 0;
+        if (l->corners.span[block].first < l->corners.span[block].end)
+            force = pairs_add(force, sum_corners(s, block, acting, &guarded));
+        s->guarded[block] = (uint8_t)guarded;
+    }
     const pairs inverse_mass = pairs_spread(s->inverse_mass + row);
     pairs a = pairs_add(p->gravity, pairs_mul(inverse_mass, force));
     if (s->mass_damping != 0.0)
@@ -527,8 +529,42 @@ INLINE double run(const sweep *s, dem_index first, dem_index last, laws acting, 
     return pairs_total(p.sum);
 }
 
+/* ---- the guard ---- */
+
+/* The nodes of a block that are the lowest corners of triangles that are smaller than the onset of their guard, or
+ * little larger: areas differ by rounding from corner to corner. */
+INLINE unsigned find_lowest(const sweep *s, dem_index block)
+{
+    const layout *l = s->layout;
+    const intern_span span = l->lowest.span[block];
+    const layout_entry *entries = l->lowest.entries.items;
+    const double *sets = l->areas.items, *here = s->x + 2 * LAYOUT_LANES * block;
+    const lanes twice = lanes_all(2.0 * 1.001);
+    const pairs x = pairs_load(here);
+    unsigned nodes = 0;
+    for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
+        const bool gathered = e->kind == LAYOUT_GATHERED;
+        const pairs next = lane_operands_fetch(l, s->x, here, e->at, gathered),
+                    last = lane_operands_fetch(l, s->x, here, e->to, gathered);
+        const lanes onset = lanes_load(sets + e->set + LAYOUT_LANES);
+        const unsigned below =
+            lanes_below(pairs_cross(pairs_sub(next, x), pairs_sub(last, x)), lanes_mul(twice, onset));
+        nodes |= nodes_of_any(below, e->mask);
+    }
+    return nodes;
+}
+
+static void look_at_lowest(const sweep *s, dem_index first, dem_index last)
+{
+    for (dem_index block = first; block < last; block++) s->guarded[block] = (uint8_t)find_lowest(s, block);
+}
+
 void SWEEP_GUARD(const sweep *s, dem_index first, dem_index last)
 {
+    if (s->looks_at_lowest) {
+        look_at_lowest(s, first, last);
+        return;
+    }
     for (dem_index block = first; block < last; block++) {
         unsigned guarded = 0;
         (void)sum_corners(s, block, (laws){0}, &guarded);
@@ -567,7 +603,8 @@ void SWEEP_STRAIN(const sweep *s, dem_index first, dem_index last)
     }
 }
 
-double SWEEP(const sweep *s, dem_index first, dem_index last, double *ring)
+/* By the laws that act. */
+static double run_all(const sweep *s, dem_index first, dem_index last, double *ring)
 {
     const layout *l = s->layout;
     const bool fused = s->fused_step != NULL, watched = s->limit != NULL;
@@ -576,6 +613,23 @@ double SWEEP(const sweep *s, dem_index first, dem_index last, double *ring)
     if (fused && watched) return run(s, first, last, (laws){.fused = true, .watched = true}, ring);
     if (fused) return run(s, first, last, (laws){.fused = true}, ring);
     return l->damped ? run(s, first, last, (laws){.damped = true}, ring) : run(s, first, last, (laws){0}, ring);
+}
+
+/* Pieces whose positions the first cache still holds when triangles are looked at. */
+enum { piece = 128 };
+
+double SWEEP(const sweep *s, dem_index first, dem_index last, double *ring)
+{
+    sweep of_piece = *s;
+    double sum = 0.0;
+    if (!s->looks_at_lowest || s->layout->lowest.entries.n == 0) return run_all(s, first, last, ring);
+    for (dem_index from = first; from < last; from += piece) {
+        const dem_index end = from + piece < last ? from + piece : last;
+        sum += run_all(&of_piece, from, end, ring);
+        look_at_lowest(s, from, end);
+        of_piece.goes_on = true;
+    }
+    return sum;
 }
 
 #endif

@@ -30,7 +30,7 @@ static dem_status allocate(kernel *k)
     /* Two numbers for each force; the forces of damping are behind those of the springs. */
     k->ring_size = 2 * (size_t)l->ring_length * (l->damped ? 2 : 1); /* a multiple of 16 */
     k->rings = aligned_zeros((size_t)team_threads(k->team) * k->ring_size);
-    k->guarded = calloc((size_t)l->n_blocks + 1, sizeof *k->guarded);
+    k->guarded = calloc((size_t)l->n_blocks + EIGHT, sizeof *k->guarded);
     k->sums = calloc((size_t)k->n_shares, sizeof *k->sums);
     if (l->order != NULL) k->packed = aligned_zeros(7 * n);
     CHECK(k->rings && k->guarded && k->sums && (k->packed || l->order == NULL), DEM_ERROR_MEMORY,
@@ -228,6 +228,34 @@ static void sweep_share(const void *context, int share, int thread)
     k->sums[share] = b.first < b.last ? k->sweep(&s, b.first, b.last, ring) : 0.0;
 }
 
+/* The first block from one on of which a flag is set; the number of blocks if there is none. Most are not: they are
+ * passed by eights, with zeros behind the last one. */
+static dem_index next_flag(const uint8_t *flags, dem_index block, dem_index n)
+{
+    for (uint64_t eight = 0; block < n; block += EIGHT) {
+        memcpy(&eight, flags + block, sizeof eight);
+        if (eight != 0) break;
+    }
+    while (block < n && flags[block] == 0) block++;
+    return block < n ? block : n;
+}
+
+/* From the lowest corners of triangles that are folded, or nearly so, to all nodes on which the guard acts: other
+ * corners are up to `ahead` blocks behind. */
+static void find_guarded(const kernel *k, const sweep *s)
+{
+    const dem_index n = s->layout->n_blocks, ahead = s->layout->ahead;
+    sweep all_corners = *s;
+    if (!s->looks_at_lowest) return;
+    all_corners.looks_at_lowest = false;
+    for (dem_index block = next_flag(k->guarded, 0, n), end = 0; block < n; block++) {
+        if (block >= end) block = next_flag(k->guarded, block, n);
+        if (block == n) return;
+        if (k->guarded[block] != 0) end = block + ahead + 1;
+        k->sweep_guard(&all_corners, block, block + 1);
+    }
+}
+
 /* The sum tells whether all accelerations are finite, and bounds them: its bits are of no consequence. */
 static double sweep_blocks(const kernel *k, const sweep *s)
 {
@@ -317,14 +345,15 @@ static double sum_up(const kernel_state *y, dem_index n)
     return sum;
 }
 
-/* The first place from q on at which the guard acts; the end of the blocks if there is none. Blocks without such a node
- * are passed in one go. */
+/* The first place from q on at which the guard acts; the end of the blocks if there is none. */
 static dem_index next_guarded(const kernel *k, dem_index q)
 {
-    const dem_index end = LAYOUT_LANES * k->model->layout.n_blocks;
+    const dem_index n = k->model->layout.n_blocks, end = LAYOUT_LANES * n;
     if (k->model->layout.corners.entries.n == 0) return end;
     while (q < end && !(k->guarded[q / LAYOUT_LANES] >> q % LAYOUT_LANES & 1))
-        q += k->guarded[q / LAYOUT_LANES] >> q % LAYOUT_LANES ? 1 : LAYOUT_LANES - q % LAYOUT_LANES;
+        q = k->guarded[q / LAYOUT_LANES] >> q % LAYOUT_LANES
+                ? q + 1
+                : LAYOUT_LANES * next_flag(k->guarded, q / LAYOUT_LANES + 1, n);
     return q < end ? q : end;
 }
 
@@ -415,6 +444,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
                .u = y->u,
                .a = y->a,
                .guarded = k->guarded,
+               .looks_at_lowest = !l->stiff,
                .limit = y->fused_step != NULL ? k->limit : NULL,
                .strained = k->strained,
                .fused_step = y->fused_step,
@@ -432,6 +462,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
     }
     /* From here on arrays are in the caller's order again. */
     double sum = sweep_blocks(k, &s);
+    find_guarded(k, &s);
     if (k->packed != NULL) run(&(loop){.kernel = k, .from = s.a, .to = y->a}, unpack_share);
     sum += copy_velocities(y, k->packed != NULL ? 0 : LAYOUT_LANES * l->n_blocks, n);
     sum += accelerate_rest(k, f, y);
@@ -558,26 +589,13 @@ static void visit_block(const kernel *k, const element_state *e, const double *x
         if (nodes >> lane & 1) visit_place(k, e, x, LAYOUT_LANES * block + lane, visit, context);
 }
 
-/* The first block from one on that has nodes with strained springs; the number of blocks if there is none. Most have
- * none: they are passed by eights, with zeros behind the last one. */
-static dem_index next_strained(const kernel *k, dem_index block)
-{
-    const dem_index n = k->model->layout.n_blocks;
-    for (uint64_t eight = 0; block < n; block += EIGHT) {
-        memcpy(&eight, k->strained + block, sizeof eight);
-        if (eight != 0) break;
-    }
-    while (block < n && k->strained[block] == 0) block++;
-    return block < n ? block : n;
-}
-
 /* What a fused step has found is asked for once: the next who asks may have changed the positions. */
 void kernel_visit_strained(kernel *k, const element_state *e, const double *x, kernel_visitor *visit, void *context)
 {
     const layout *l = &k->model->layout;
     if (k->watched != x) find_strained(k, e, x);
     k->watched = NULL;
-    for (dem_index block = next_strained(k, 0); block < l->n_blocks; block = next_strained(k, block + 1))
+    for (dem_index block = 0; (block = next_flag(k->strained, block, l->n_blocks)) < l->n_blocks; block++)
         visit_block(k, e, x, block, visit, context);
     for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) visit_place(k, e, x, q, visit, context);
 }
@@ -613,8 +631,10 @@ double kernel_stiffening(kernel *k, const forces *f, const double *x)
     /* Positions are all that is needed to find the nodes on which the guard acts. */
     const sweep s = {.layout = kernel_layout(k, f->elements),
                      .x = k->packed != NULL ? k->packed + l->n_nodes : x,
-                     .guarded = k->guarded};
+                     .guarded = k->guarded,
+                     .looks_at_lowest = true};
     run(&(loop){.kernel = k, .sweep = &s}, guard_share);
+    find_guarded(k, &s);
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
         added = fmax(added, kernel_guard_bound(k, f, x, q));
     for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++)
