@@ -91,27 +91,15 @@ INLINE void measure_couplings(const place *p, running *r)
     }
 }
 
-/* The lanes of an entry whose node is the lowest corner. Side by side all of them are, or none is. */
-INLINE unsigned lowest_of(const place *p, const layout_entry *e)
-{
-    unsigned nodes = 0;
-    if (e->kind != LAYOUT_GATHERED) return e->at > 0 && e->to > 0 ? lane_operands_taken(e) : 0;
-    for (int32_t q = 0; q < LAYOUT_LANES; q++) {
-        const dem_index own = 2 * (LAYOUT_LANES * p->block + q);
-        nodes |= (unsigned)(p->l->lists[e->at + q] > own && p->l->lists[e->to + q] > own) << q;
-    }
-    return lanes_of_nodes(nodes) & lane_operands_taken(e);
-}
-
 /* A0 kappa/2 (J - 1)^2 with J = A/A0 */
 INLINE void measure_areas(place *p, running *r)
 {
-    const intern_span span = p->l->corners.span[p->block];
-    const layout_entry *entries = p->l->corners.entries.items;
+    const intern_span span = p->l->lowest.span[p->block];
+    const layout_entry *entries = p->l->lowest.entries.items;
     const double *sets = p->l->areas.items;
     const pairs x = pairs_load(p->here);
     for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
-        const unsigned taken = lowest_of(p, e) & ~p->skipped;
+        const unsigned taken = lane_operands_taken(e) & ~p->skipped;
         if (taken == 0) continue;
         const bool gathered = e->kind == LAYOUT_GATHERED;
         const pairs next = positions(p, e->at, gathered), last = positions(p, e->to, gathered);
