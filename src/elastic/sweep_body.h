@@ -207,8 +207,8 @@ INLINE pairs sum_corners(const sweep *s, dem_index block, laws acting, unsigned 
                     last = lane_operands_fetch(l, s->x, here, e->to, gathered);
         const lanes twice = pairs_cross(pairs_sub(next, x), pairs_sub(last, x));
         const lanes area = lanes_mul(lanes_all(0.5), twice), rest = lanes_load(set);
-        const unsigned below = lanes_below(area, lanes_load(set + LAYOUT_LANES));
-        if (below != 0) *guarded |= nodes_of(below, e->mask);
+        const unsigned below = lanes_below(area, lanes_load(set + LAYOUT_LANES)) & lane_operands_taken(e);
+        if (below != 0) *guarded |= lane_operands_nodes(below);
         if (!l->stiff) continue;
         const lanes ratio = lanes_div(area, rest), stretch = lanes_sub(ratio, lanes_all(1.0));
         lanes stiffness = lanes_load(set + 2 * LAYOUT_LANES);
@@ -541,17 +541,15 @@ INLINE unsigned find_lowest(const sweep *s, dem_index block)
     const double *sets = l->areas.items, *here = s->x + 2 * LAYOUT_LANES * block;
     const lanes twice = lanes_all(2.0 * 1.001);
     const pairs x = pairs_load(here);
-    unsigned nodes = 0;
+    unsigned folded = 0;
     for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
         const bool gathered = e->kind == LAYOUT_GATHERED;
         const pairs next = lane_operands_fetch(l, s->x, here, e->at, gathered),
                     last = lane_operands_fetch(l, s->x, here, e->to, gathered);
-        const lanes onset = lanes_load(sets + e->set + LAYOUT_LANES);
-        const unsigned below =
-            lanes_below(pairs_cross(pairs_sub(next, x), pairs_sub(last, x)), lanes_mul(twice, onset));
-        nodes |= nodes_of_any(below, e->mask);
+        const lanes onset = lanes_mul(twice, lanes_load(sets + e->set + LAYOUT_LANES));
+        folded |= lanes_below(pairs_cross(pairs_sub(next, x), pairs_sub(last, x)), onset) & lane_operands_taken(e);
     }
-    return nodes;
+    return folded != 0 ? lane_operands_nodes(folded) : 0;
 }
 
 static void look_at_lowest(const sweep *s, dem_index first, dem_index last)
