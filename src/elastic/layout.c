@@ -400,15 +400,17 @@ static dem_status lay_blocks(builder *b)
     layout *l = b->l;
     for (dem_index block = 0; block < l->n_blocks; block++) {
         TRY(lay_springs(b, block));
-        TRY(lay_couplings(b, block));
+        if (l->coupled) TRY(lay_couplings(b, block));
         if (!worth_it(b)) {
             l->n_blocks = b->ring.n = 0;
             break;
         }
         list_terms(b, block);
         TRY(lay_terms(b, &l->terms, block));
-        list_coupling_terms(b, block);
-        TRY(lay_terms(b, &l->coupling_terms, block));
+        if (l->coupled) {
+            list_coupling_terms(b, block);
+            TRY(lay_terms(b, &l->coupling_terms, block));
+        }
         TRY(lay_corners(b, block));
         TRY(lay_lowest(b, block));
     }
@@ -491,8 +493,9 @@ static dem_status allocate(builder *b)
     layout_part *const parts[] = {&l->springs, &l->terms, &l->corners, &l->lowest, &l->couplings, &l->coupling_terms};
     bool complete = lane_groups_create(&b->groups, most) && b->force && b->corner_force && b->slot;
     for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
-        *parts[k] = (layout_part){calloc(n, sizeof(intern_span)), {.unit = sizeof(layout_entry)}};
-        complete = complete && parts[k]->span != NULL;
+        const bool needed = l->coupled || (parts[k] != &l->couplings && parts[k] != &l->coupling_terms);
+        *parts[k] = (layout_part){needed ? calloc(n, sizeof(intern_span)) : NULL, {.unit = sizeof(layout_entry)}};
+        complete = complete && (!needed || parts[k]->span != NULL);
     }
     CHECK(complete, DEM_ERROR_MEMORY, "out of memory for %lld springs", (long long)b->s->n_springs);
     return choose_order(b);

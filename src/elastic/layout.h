@@ -48,7 +48,7 @@ typedef struct layout_entry {
 
 /** Entries by block. */
 typedef struct layout_part {
-    intern_span *span; /* [n_blocks] */
+    intern_span *span; /* [n_blocks]; NULL: of couplings where there are none */
     intern entries;
 } layout_part;
 

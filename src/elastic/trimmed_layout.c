@@ -23,6 +23,7 @@ enum { n_parts = 5, usual_bytes = 1 << 14 };
 
 static dem_status copy_part(layout_part *out, const layout_part *from, dem_index n_blocks)
 {
+    if (from->span == NULL) return DEM_OK;
     *out = (layout_part){.span = malloc(((size_t)n_blocks + 1) * sizeof *out->span)};
     CHECK_MEMORY(out->span);
     memcpy(out->span, from->span, (size_t)n_blocks * sizeof *out->span);
