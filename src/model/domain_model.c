@@ -368,7 +368,7 @@ dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model 
 /* ---- from the whole that rank 0 has ---- */
 
 /* What rank 0 has cut for another one ends as soon as it is sent. */
-static dem_status deal_one(domain_cut *own, const ranks *r, const whole_lattice *w, int to)
+static dem_status send_one(domain_cut *own, const ranks *r, const whole_lattice *w, int to)
 {
     domain_cut other = {0}, *const c = r->rank == 0 ? &other : own;
     const bool takes_part = r->rank == 0 || r->rank == to;
@@ -381,29 +381,30 @@ static dem_status deal_one(domain_cut *own, const ranks *r, const whole_lattice 
 }
 
 /* One after the other, so that rank 0 has one domain at a time, and its own last. */
-static dem_status deal_all(domain_cut *own, const ranks *r, const whole_lattice *w)
+static dem_status send_all(domain_cut *own, const ranks *r, const whole_lattice *w)
 {
-    for (int to = 1; to < r->size; to++) TRY(deal_one(own, r, w, to));
+    for (int to = 1; to < r->size; to++) TRY(send_one(own, r, w, to));
     if (r->rank > 0) return DEM_OK;
     TRY(open_cut(own));
     return cut(own, w, 0);
 }
 
-static dem_status deal(domain_cut *own, const ranks *r, const dem_model *model, const domain_model_shares *shares)
+static dem_status distribute(domain_cut *own, const ranks *r, const dem_model *model, const domain_model_shares *shares)
 {
     whole_lattice w = {0};
     dem_status status = r->rank == 0 ? open_whole(&w, r, model, shares) : DEM_OK;
     status = reduce_status(r, status, 0.0);
-    if (status == DEM_OK) status = deal_all(own, r, &w);
+    if (status == DEM_OK) status = send_all(own, r, &w);
     close_whole(&w);
     return status;
 }
 
-dem_status domain_model_deal(dem_model **out, const ranks *r, const dem_model *whole, const domain_model_shares *shares,
-                             const dem_obstacle *obstacles, dem_index n_obstacles)
+dem_status domain_model_distribute(dem_model **out, const ranks *r, const dem_model *whole,
+                                   const domain_model_shares *shares, const dem_obstacle *obstacles,
+                                   dem_index n_obstacles)
 {
     domain_cut c = {0};
-    dem_status status = deal(&c, r, whole, shares);
+    dem_status status = distribute(&c, r, whole, shares);
     if (status == DEM_OK) status = compile(&c, obstacles, n_obstacles, shares->touching);
     return finish(out, r, &c, status);
 }

@@ -27,8 +27,9 @@ dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model 
  *  \param whole   on rank 0; not looked at elsewhere
  *  \param shares  likewise its owners
  *  \param obstacles  [n_obstacles] the same on all ranks */
-dem_status domain_model_deal(dem_model **out, const ranks *r, const dem_model *whole, const domain_model_shares *shares,
-                             const dem_obstacle *obstacles, dem_index n_obstacles);
+dem_status domain_model_distribute(dem_model **out, const ranks *r, const dem_model *whole,
+                                   const domain_model_shares *shares, const dem_obstacle *obstacles,
+                                   dem_index n_obstacles);
 
 /** How many rings of neighbours about what events may concern ranks have in common. */
 int domain_model_rings(const dem_lattice *lattice);

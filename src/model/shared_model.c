@@ -109,15 +109,17 @@ dem_status dem_private_share_model(dem_model **out, const dem_private_whole *who
     return status;
 }
 
-dem_status shared_model_deal(dem_model **out, const dem_model *whole, const dem_private_whole *about, const ranks *r)
+dem_status shared_model_distribute(dem_model **out, const dem_model *whole, const dem_private_whole *about,
+                                   const ranks *r)
 {
     int32_t *owner = NULL;
     const bool touching = about->touching == DEM_PRIVATE_TOUCHING_SOME;
     dem_status status = r->rank == 0 ? find_owners(&owner, &whole->lattice, about->weights, r->size) : DEM_OK;
     status = reduce_status(r, status, 0.0);
     if (status == DEM_OK)
-        status = domain_model_deal(out, r, whole, &(domain_model_shares){owner, touching, about->has_one_ring ? 1 : 0},
-                                   about->obstacles, about->n_obstacles);
+        status =
+            domain_model_distribute(out, r, whole, &(domain_model_shares){owner, touching, about->has_one_ring ? 1 : 0},
+                                    about->obstacles, about->n_obstacles);
     free(owner);
     if (status == DEM_OK) (*out)->ends_ranks = r->end != NULL;
     return status;

@@ -36,6 +36,7 @@ DEM_API dem_status dem_private_share_model(dem_model **out, const dem_private_wh
 /** The same of a model that rank 0 alone has.
  *  \param whole  on rank 0; not looked at elsewhere
  *  \param about  without a lattice, and with `touching` known; the same on all ranks */
-dem_status shared_model_deal(dem_model **out, const dem_model *whole, const dem_private_whole *about, const ranks *r);
+dem_status shared_model_distribute(dem_model **out, const dem_model *whole, const dem_private_whole *about,
+                                   const ranks *r);
 
 #endif

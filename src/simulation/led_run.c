@@ -87,7 +87,7 @@ static dem_status create_part(led_run *l, const shared_problem *p, bool resumes,
                                      touching ? DEM_PRIVATE_TOUCHING_SOME : DEM_PRIVATE_TOUCHING_NONE,
                                      l->balance.weights,
                                      needs_one_ring(&p->options)};
-    TRY(shared_model_deal(&l->model, l->whole != NULL ? l->whole->model : NULL, &about, &l->ranks));
+    TRY(shared_model_distribute(&l->model, l->whole != NULL ? l->whole->model : NULL, &about, &l->ranks));
     if (resumes)
         TRY(dem_simulation_resume(&l->part, l->model, &p->options, checkpoint));
     else

@@ -15,7 +15,7 @@ enum { N_RANKS = 5, TEXT = 200 };
 typedef struct shared {
     const dem_model *whole;
     const int32_t *owner;
-    bool touching, deals; /* whether bodies may touch; whether rank 0 alone has the whole */
+    bool touching, is_sent; /* whether bodies may touch; whether rank 0 alone has the whole */
     int n_rings;
     dem_model *models[N_RANKS];
     dem_status status[N_RANKS];
@@ -25,12 +25,12 @@ typedef struct shared {
 static void create(const ranks *r, void *context)
 {
     shared *s = context;
-    const dem_model *whole = s->deals && r->rank > 0 ? NULL : s->whole;
+    const dem_model *whole = s->is_sent && r->rank > 0 ? NULL : s->whole;
     const domain_model_shares shares = {whole != NULL ? s->owner : NULL, s->touching, s->n_rings};
     dem_model **out = &s->models[r->rank];
     s->status[r->rank] =
-        s->deals ? domain_model_deal(out, r, whole, &shares, s->whole->obstacles.list, s->whole->obstacles.n)
-                 : domain_model_create(out, r, whole, &shares);
+        s->is_sent ? domain_model_distribute(out, r, whole, &shares, s->whole->obstacles.list, s->whole->obstacles.n)
+                   : domain_model_create(out, r, whole, &shares);
     if (s->status[r->rank] != DEM_OK) (void)strncpy(s->messages[r->rank], dem_status_message(), TEXT - 1);
 }
 
@@ -113,8 +113,8 @@ TEST(own_nodes_have_what_they_have_in_the_whole)
     CLEANUP(free_memory) double *x = malloc(2 * (size_t)l.n_nodes * sizeof *x);
     for (dem_index k = 0; k < 2 * l.n_nodes; k++) x[k] = l.x[k] * (1.0 + 0.01 * sin((double)k));
     assert_ok(stress_prepare(&whole->stress));
-    for (int deals = 0; deals < 2; deals++) {
-        shared s = {.whole = whole, .owner = owner, .deals = deals};
+    for (int is_sent = 0; is_sent < 2; is_sent++) {
+        shared s = {.whole = whole, .owner = owner, .is_sent = is_sent};
         rank_threads_run(N_RANKS, create, &s);
         for (int k = 0; k < N_RANKS; k++) {
             assert_int_equal(s.status[k], DEM_OK);
@@ -137,13 +137,13 @@ TEST(a_domain_that_is_sent_is_the_one_that_is_cut)
     CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
     CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
     CLEANUP(free_model) dem_model *whole = support_model(&l, NULL, 0);
-    shared cut = {.whole = whole, .owner = owner}, dealt = {.whole = whole, .owner = owner, .deals = true};
+    shared cut = {.whole = whole, .owner = owner}, sent = {.whole = whole, .owner = owner, .is_sent = true};
     rank_threads_run(N_RANKS, create, &cut);
-    rank_threads_run(N_RANKS, create, &dealt);
+    rank_threads_run(N_RANKS, create, &sent);
     for (int k = 0; k < N_RANKS; k++) {
-        const domain *a = cut.models[k]->domain, *b = dealt.models[k]->domain;
+        const domain *a = cut.models[k]->domain, *b = sent.models[k]->domain;
         assert_int_equal(a->n_nodes, b->n_nodes);
-        assert_int_equal(cut.models[k]->lattice.n_springs, dealt.models[k]->lattice.n_springs);
+        assert_int_equal(cut.models[k]->lattice.n_springs, sent.models[k]->lattice.n_springs);
         assert_memory_equal(a->number, b->number, (size_t)a->n_nodes * sizeof *a->number);
         assert_memory_equal(a->is_own, b->is_own, (size_t)a->n_nodes);
         assert_memory_equal(a->is_ghost, b->is_ghost, (size_t)a->n_nodes);
@@ -154,7 +154,7 @@ TEST(a_domain_that_is_sent_is_the_one_that_is_cut)
         assert_int_equal(b->n_whole, l.n_nodes);
     }
     destroy(&cut);
-    destroy(&dealt);
+    destroy(&sent);
 }
 
 static const double floor_points[] = {-1.0, -1.0, 1.0, -1.0};
@@ -181,8 +181,8 @@ TEST(what_may_touch_obstacles_is_on_all_ranks)
     CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
     const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 1.0);
     CLEANUP(free_model) dem_model *whole = support_model(&l, &floor, 1);
-    for (int deals = 0; deals < 2; deals++) {
-        shared s = {.whole = whole, .owner = owner, .deals = deals};
+    for (int is_sent = 0; is_sent < 2; is_sent++) {
+        shared s = {.whole = whole, .owner = owner, .is_sent = is_sent};
         rank_threads_run(N_RANKS, create, &s);
         for (int k = 0; k < N_RANKS; k++) {
             assert_int_equal(s.status[k], DEM_OK);
@@ -225,8 +225,8 @@ TEST(nodes_stand_in_the_order_of_the_whole_layout)
     CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
     CLEANUP(free_model) dem_model *whole = support_model(&l, NULL, 0);
     assert_non_null(whole->layout.order);
-    for (int deals = 0; deals < 2; deals++) {
-        shared s = {.whole = whole, .owner = owner, .deals = deals};
+    for (int is_sent = 0; is_sent < 2; is_sent++) {
+        shared s = {.whole = whole, .owner = owner, .is_sent = is_sent};
         rank_threads_run(N_RANKS, create, &s);
         for (int k = 0; k < N_RANKS; k++) {
             assert_int_equal(s.status[k], DEM_OK);
@@ -304,7 +304,7 @@ TEST(surfaces_and_rigid_bodies_are_on_all_ranks)
     assert_ok(touching_bodies_create(&bodies, &whole->lattice));
     for (int way = 0; way < 4; way++) {
         const bool touching = way % 2;
-        shared s = {.whole = whole, .owner = owner, .touching = touching, .deals = way / 2};
+        shared s = {.whole = whole, .owner = owner, .touching = touching, .is_sent = way / 2};
         rank_threads_run(N_RANKS, create, &s);
         for (int k = 0; k < N_RANKS; k++) {
             assert_int_equal(s.status[k], DEM_OK);
@@ -342,8 +342,8 @@ TEST(a_failure_of_one_rank_is_that_of_all)
     CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
     CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS - 1);
     CLEANUP(free_model) dem_model *whole = support_model(&l, NULL, 0);
-    for (int deals = 0; deals < 2; deals++) {
-        shared s = {.whole = whole, .owner = owner, .deals = deals};
+    for (int is_sent = 0; is_sent < 2; is_sent++) {
+        shared s = {.whole = whole, .owner = owner, .is_sent = is_sent};
         rank_threads_run(N_RANKS, create, &s);
         for (int k = 0; k < N_RANKS; k++) {
             assert_null(s.models[k]);
