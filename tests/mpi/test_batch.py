@@ -261,24 +261,6 @@ class Breaking(Runs):
         self.assert_same("one", "parts")
 
 
-class LongerBreaking(Runs):
-    # Spacings, and ends and strengths for which much breaks by these.
-    COARSE = {"brittle_disc": ("6e-3", "8e-4", "4e6"), "kalthoff": ("4e-3", "9e-5", "5e8"),
-              "brazilian_disc": ("4e-3", "2e-3", "10e6"), "pulled_strip": ("4e-3", "6e-3", "4e6")}
-
-    def test_files_are_those_of_one_process(self):
-        for name, (spacing, t_end, strength) in self.COARSE.items():
-            deck = str(INPUTS / f"{name}.nml")
-            settings = ("--set", "output.name=free", "--set", f"body.spacing={spacing}", "--set", f"run.t_end={t_end}",
-                        "--set", f"material(1).strength={strength}", "--set", "solver.checkpoint_steps=50")
-            self.assertEqual(self.run_on(0, name, *settings, deck=deck)[0], 0)
-            self.assertGreater(self.result(name)["broken_triangles"], 0)
-            for n in (1, 3):
-                code, _, errors = self.run_on(n, f"{name}{n}", *settings, deck=deck)
-                self.assertEqual(code, 0, errors)
-                self.assert_same(name, f"{name}{n}")
-
-
 class LongerTouching(Runs):
     NAMED = ("--set", "output.name=free")
 
