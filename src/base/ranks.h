@@ -30,8 +30,9 @@ typedef struct ranks {
     void (*reduce)(void *self, void *packet, size_t size, ranks_join *join);
     /** Sends n messages and receives as many, one to and one from each of n other ranks, in ascending order. */
     void (*exchange)(void *self, int n, const ranks_message *sent, const ranks_message *received);
-    /** Processor time of this rank outside of the functions above, s, since some time in the past. NULL: not known. */
-    double (*work)(const void *self);
+    /** Processor time of the calling thread outside of the functions above, s, since some time in the past. NULL: not
+     *  known. */
+    double (*busy)(const void *self);
     /** Frees the table, of which nothing is used afterwards. NULL where nobody but its maker ends it. */
     void (*end)(void *self);
     /** Numbers in which signal handlers of this rank note what is asked; 0: nothing. What another rank has there rank 0

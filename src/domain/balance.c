@@ -12,10 +12,10 @@ static const double least_loss = 0.05; /* of the work of the busiest rank */
 dem_status balance_create(balance *b, int n_ranks)
 {
     *b = (balance){.n_ranks = n_ranks};
-    b->work = calloc((size_t)n_ranks, sizeof *b->work);
+    b->busy = calloc((size_t)n_ranks, sizeof *b->busy);
     b->reports = calloc((size_t)n_ranks, sizeof *b->reports);
     b->requests = calloc((size_t)n_ranks, sizeof *b->requests);
-    CHECK(b->work != NULL && b->reports != NULL && b->requests != NULL, DEM_ERROR_MEMORY, "out of memory for %d ranks",
+    CHECK(b->busy != NULL && b->reports != NULL && b->requests != NULL, DEM_ERROR_MEMORY, "out of memory for %d ranks",
           n_ranks);
     return DEM_OK;
 }
@@ -23,7 +23,7 @@ dem_status balance_create(balance *b, int n_ranks)
 void balance_free(balance *b)
 {
     free(b->weights);
-    free(b->work);
+    free(b->busy);
     free(b->reports);
     free(b->requests);
     *b = (balance){0};
@@ -43,9 +43,9 @@ void balance_collect(balance *b, const ranks *r, double own)
         r->exchange(r->self, 1, &report, &request);
         return;
     }
-    b->work[0] = own;
+    b->busy[0] = own;
     for (int k = 1; k < b->n_ranks; k++) {
-        b->reports[k - 1] = (ranks_message){k, sizeof own, &b->work[k]};
+        b->reports[k - 1] = (ranks_message){k, sizeof own, &b->busy[k]};
         b->requests[k - 1] = (ranks_message){k, 0, NULL};
     }
     r->exchange(r->self, b->n_ranks - 1, b->requests, b->reports);
@@ -55,8 +55,8 @@ bool balance_pays(const balance *b)
 {
     double sum = 0.0, most = 0.0;
     for (int k = 0; k < b->n_ranks; k++) {
-        sum += b->work[k];
-        most = fmax(most, b->work[k]);
+        sum += b->busy[k];
+        most = fmax(most, b->busy[k]);
     }
     const double lost = most - sum / b->n_ranks;
     return lost > ldexp(b->price, b->n_shared - 1) && lost > least_loss * most;
@@ -67,7 +67,7 @@ bool balance_pays(const balance *b)
 static void spread(const balance *b, dem_index n_nodes, const int32_t *owner, dem_index *counts, double *weights)
 {
     for (dem_index i = 0; i < n_nodes; i++) counts[owner[i]]++;
-    for (dem_index i = 0; i < n_nodes; i++) weights[i] = b->work[owner[i]] / (double)counts[owner[i]];
+    for (dem_index i = 0; i < n_nodes; i++) weights[i] = b->busy[owner[i]] / (double)counts[owner[i]];
 }
 
 dem_status balance_weigh(balance *b, const dem_lattice *whole)

@@ -15,7 +15,7 @@ typedef struct balance {
     int n_shared;    /* how often nodes have been shared out, */
     double price;    /* s, and what the last time took */
     int n_ranks;
-    double *work;                      /* [n_ranks] s, of each rank since then */
+    double *busy;                      /* [n_ranks] s, of each rank since then */
     ranks_message *reports, *requests; /* [n_ranks - 1] from and to other ranks */
 } balance;
 

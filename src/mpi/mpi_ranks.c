@@ -30,7 +30,7 @@ static double processor_time(void)
     return clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t) == 0 ? (double)t.tv_sec + 1e-9 * (double)t.tv_nsec : 0.0;
 }
 
-static double work(const void *self)
+static double busy(const void *self)
 {
     return processor_time() - ((const mpi_ranks *)self)->waited;
 }
@@ -152,7 +152,7 @@ ranks *mpi_ranks_create(MPI_Comm communicator)
         return NULL;
     }
     m->table = (ranks){
-        .self = m, .rank = rank, .size = size, .reduce = reduce, .exchange = exchange, .work = work, .end = end};
+        .self = m, .rank = rank, .size = size, .reduce = reduce, .exchange = exchange, .busy = busy, .end = end};
     m->requests = requests;
     begin(m, communicator);
     return &m->table;

@@ -32,7 +32,7 @@ struct led_run {
     dem_simulation *part;  /* NULL: there is none */
     bool is_observed;
     frame_relay frames[OBSERVERS_MOST];
-    double work, entered;       /* s of work since nodes were shared out, and what the clock of it said in enter() */
+    double busy, entered;       /* s of work since nodes were shared out, and busy_time() in enter() */
     balance balance;            /* of them. On rank 0: */
     const dem_options *options; /* of the whole */
     bool shares_anew;           /* the nodes, from the checkpoint that the run has just taken */
@@ -40,9 +40,9 @@ struct led_run {
 
 /* ---- work of all ranks together ---- */
 
-static double work_clock(const led_run *l)
+static double busy_time(const led_run *l)
 {
-    return l->ranks.work != NULL ? l->ranks.work(l->ranks.self) : 0.0;
+    return l->ranks.busy != NULL ? l->ranks.busy(l->ranks.self) : 0.0;
 }
 
 /* From here to leave() all ranks work together: one that is out of memory cannot report it and go on. The time counts
@@ -50,13 +50,13 @@ static double work_clock(const led_run *l)
 static void enter(led_run *l)
 {
     status_watch_memory(l->ranks.lacks_memory, l->ranks.program);
-    l->entered = work_clock(l);
+    l->entered = busy_time(l);
 }
 
 static void leave(led_run *l)
 {
-    const double now = work_clock(l);
-    l->work += now - l->entered;
+    const double now = busy_time(l);
+    l->busy += now - l->entered;
     l->entered = now;
     status_watch_memory(NULL, NULL);
 }
@@ -108,16 +108,16 @@ static dem_status create(led_run *l, dem_checkpoint *entries, bool resumes, cons
     leave(l);
     shared_problem_free(&p);
     if (status != DEM_OK) drop(l);
-    balance_begin(&l->balance, l->work);
-    l->work = 0.0;
+    balance_begin(&l->balance, l->busy);
+    l->busy = 0.0;
     return status;
 }
 
 /* Tells rank 0 how long all have worked since nodes were shared out.  \return false if nobody knows */
-static bool collect_work(led_run *l)
+static bool collect_busy(led_run *l)
 {
-    if (l->ranks.work == NULL) return false;
-    balance_collect(&l->balance, &l->ranks, l->work + work_clock(l) - l->entered);
+    if (l->ranks.busy == NULL) return false;
+    balance_collect(&l->balance, &l->ranks, l->busy + busy_time(l) - l->entered);
     return true;
 }
 
@@ -194,7 +194,7 @@ static dem_status take_checkpoint(dem_simulation *whole, const dem_checkpoint *f
 static dem_status lead_checkpoint(void *context, const dem_simulation *part, dem_checkpoint *checkpoint)
 {
     led_run *l = context;
-    const bool pays = collect_work(l) && balance_pays(&l->balance);
+    const bool pays = collect_busy(l) && balance_pays(&l->balance);
     (void)part;
     (void)hold(l);
     const dem_status status = take_checkpoint(l->whole, checkpoint);
@@ -245,7 +245,7 @@ static dem_status follow_checkpoint(void *context, const dem_simulation *part, d
 {
     (void)part;
     (void)checkpoint;
-    (void)collect_work(context);
+    (void)collect_busy(context);
     return follow_observer(context);
 }
 
@@ -268,8 +268,9 @@ static dem_status observe(led_run *l, const rank_call *o)
                                     .context = &l->frames[k]};
         if (o->intervals[k] > 0.0) TRY(dem_simulation_observe(l->part, &frame));
     }
+    TRY(dem_simulation_observe(l->part, &steps));
     l->is_observed = true;
-    return dem_simulation_observe(l->part, &steps);
+    return DEM_OK;
 }
 
 /* Rows of all nodes to rank 0, whose quadratures are those of all. */
@@ -400,6 +401,7 @@ void led_run_look_for_overlaps(dem_simulation *part)
     dem_simulation *whole = part->whole;
     const dem_model *m = part->model;
     double *x = whole != NULL ? whole->frame : NULL;
+    /* A lack of memory ends all ranks: enter(). */
     if (gather_rows(m->ranks, m->domain, part->layout.dim, part->y, x) != DEM_OK || whole == NULL) return;
     whole->measures->has_state = whole->measures->has_elements = false;
     if (shared_breaks_show(whole, part) != DEM_OK || shared_breaks_look(whole) != DEM_OK) return;
@@ -408,16 +410,29 @@ void led_run_look_for_overlaps(dem_simulation *part)
 
 static dem_status begin_parts(led_run *l, dem_checkpoint *entries, const dem_checkpoint *checkpoint)
 {
-    TRY(shared_problem_put(entries, l->whole->model, l->options));
+    if (l->part != NULL) {
+        (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_DROP});
+        drop(l);
+    }
     (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_CREATE, .number = checkpoint != NULL});
     TRY(reduce_status(&l->ranks, DEM_OK, 0.0));
     return create(l, entries, checkpoint != NULL, checkpoint);
 }
 
+static dem_status put_problem(led_run *l, dem_checkpoint **entries)
+{
+    enter(l);
+    dem_status status = dem_checkpoint_create(entries);
+    if (status == DEM_OK) status = shared_problem_put(*entries, l->whole->model, l->options);
+    leave(l);
+    return status;
+}
+
+/* In place of the parts that there are. */
 static dem_status begin(led_run *l, const dem_checkpoint *checkpoint)
 {
     dem_checkpoint *entries = NULL;
-    dem_status status = dem_checkpoint_create(&entries);
+    dem_status status = put_problem(l, &entries);
     if (status == DEM_OK) status = begin_parts(l, entries, checkpoint);
     dem_checkpoint_destroy(entries);
     return status;
@@ -426,9 +441,11 @@ static dem_status begin(led_run *l, const dem_checkpoint *checkpoint)
 static dem_status share_anew(led_run *l)
 {
     l->shares_anew = false;
-    TRY(balance_weigh(&l->balance, &l->whole->model->lattice));
-    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_DROP});
-    drop(l);
+    l->busy = 0.0; /* from here on it is what this takes */
+    enter(l);
+    const dem_status status = balance_weigh(&l->balance, &l->whole->model->lattice);
+    leave(l);
+    TRY(status);
     return begin(l, l->whole->checkpoint);
 }
 

@@ -17,9 +17,9 @@ typedef struct rank_threads_counts {
 /** Runs the work on n ranks at once, and returns when all are done. */
 void rank_threads_run(int n, rank_threads_work *work, void *context);
 
-/** Ranks that run from now on say that they have worked for a time, rank k seconds[k] for each of its calls so far.
- *  NULL: they do not know for how long.
- *  \param seconds  [n] outlives the ranks */
+/** Ranks that run from now on say that they have been busy for a time, rank k seconds[k] for each of its calls. NULL:
+ *  they do not know for how long.
+ *  \param seconds  [n] outlives the ranks; rank 0 may change them between its calls */
 void rank_threads_pretend(const double *seconds);
 
 /** Calls by this rank so far. */

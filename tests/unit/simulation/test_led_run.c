@@ -12,9 +12,11 @@ enum { N_RANKS = 3, MOST_FRAMES = 64, TEXT = 256 };
 typedef struct watched {
     const dem_model *model;
     dem_options options;
-    dem_index n_nodes, n_own; /* of the whole, and of the part of rank 0 at the end */
+    dem_index n_nodes; /* of the whole */
     int n_frames, n_checkpoints, n_steps;
     double *frames;     /* [MOST_FRAMES][2 n_nodes] positions */
+    dem_index n_own;    /* of the part of rank 0 now, and */
+    int n_shared;       /* how often it has had other nodes */
     char failure[TEXT]; /* empty: none */
 } watched;
 
@@ -28,10 +30,22 @@ static dem_status note_frame(void *context, const dem_simulation *s)
     return status;
 }
 
+static dem_index count_own(const dem_simulation *part)
+{
+    const domain *d = part->model->domain;
+    dem_index n = 0;
+    for (dem_index i = 0; i < d->n_nodes; i++) n += d->is_own[i];
+    return n;
+}
+
 static dem_status count_step(void *context, const dem_simulation *s)
 {
-    (void)s;
-    ((watched *)context)->n_steps++;
+    watched *w = context;
+    w->n_steps++;
+    if (s->leads == NULL) return DEM_OK;
+    const dem_index n = count_own(led_run_part(s->leads));
+    w->n_shared += n != w->n_own;
+    w->n_own = n;
     return DEM_OK;
 }
 
@@ -41,14 +55,6 @@ static dem_status count_checkpoint(void *context, const dem_simulation *s, dem_c
     (void)checkpoint;
     ((watched *)context)->n_checkpoints++;
     return DEM_OK;
-}
-
-static dem_index count_own(const dem_simulation *part)
-{
-    const domain *d = part->model->domain;
-    dem_index n = 0;
-    for (dem_index i = 0; i < d->n_nodes; i++) n += d->is_own[i];
-    return n;
 }
 
 /* \param leads  ranks that make the run; NULL: this process alone does */
@@ -63,7 +69,6 @@ static dem_status watch(watched *w, const ranks *leads)
     if (status == DEM_OK) status = dem_simulation_advance(s, 0.5 * t_whole);
     if (status == DEM_OK) status = dem_simulation_advance(s, t_whole);
     if (status == DEM_OK) status = note_frame(w, s);
-    if (status == DEM_OK && leads != NULL) w->n_own = count_own(led_run_part(s->leads));
     dem_simulation_destroy(s);
     return status;
 }
@@ -88,8 +93,8 @@ static watched begin_watch(const dem_model *model)
 }
 
 /* \param seconds  of work for each call, of each rank; NULL: nobody knows
- * \return how many nodes rank 0 has at the end */
-static dem_index lead(const watched *whole, const double *seconds)
+ * \return how many nodes rank 0 has at the end; \param[out] n_shared  and how often it has had other ones */
+static dem_index lead(const watched *whole, const double *seconds, int *n_shared)
 {
     watched led = begin_watch(whole->model);
     rank_threads_pretend(seconds);
@@ -101,22 +106,26 @@ static dem_index lead(const watched *whole, const double *seconds)
     assert_int_equal(led.n_checkpoints, whole->n_checkpoints);
     assert_memory_equal(led.frames, whole->frames, (size_t)(2 * led.n_nodes * led.n_frames) * sizeof *led.frames);
     free(led.frames);
+    *n_shared = led.n_shared;
     return led.n_own;
 }
 
 TEST(nodes_that_are_shared_out_anew_change_no_bit)
 {
-    static const double slow_0[N_RANKS] = {3.0, 1.0, 1.0}, slow_2[N_RANKS] = {1.0, 1.0, 3.0},
+    static const double slow_0[N_RANKS] = {3.0, 1.0, 1.0}, slow_2[N_RANKS] = {1.0, 1.0, 1.5},
                         alike[N_RANKS] = {1.0, 1.0, 1.0};
+    int n_shared;
     dem_model *model = make_falling(0.5);
     watched whole = begin_watch(model);
     assert_ok(watch(&whole, NULL));
     assert_true(whole.n_checkpoints > 3 && whole.n_frames > 10 && whole.n_frames < MOST_FRAMES);
-    const dem_index n = lead(&whole, NULL);
+    const dem_index n = lead(&whole, NULL, &n_shared);
     assert_int_equal(n, whole.n_nodes / N_RANKS);
-    assert_int_equal(lead(&whole, alike), n);
-    assert_true(lead(&whole, slow_0) < n);
-    assert_true(lead(&whole, slow_2) > n);
+    assert_int_equal(lead(&whole, alike, &n_shared), n);
+    assert_int_equal(n_shared, 1);
+    assert_true(lead(&whole, slow_0, &n_shared) < n);
+    assert_true(lead(&whole, slow_2, &n_shared) > n);
+    assert_true(n_shared > 2); /* not once only */
     free(whole.frames);
     dem_model_destroy(model);
 }
