@@ -49,7 +49,8 @@ typedef struct dem_observer {
     dem_index step_touching; /**< not 0: besides after every accepted step in which something touches: in which contacts
                                with obstacles change, or at whose end one is closed or surfaces of bodies push each
                                other. And before the contact events of a step with the state from which it goes, unless
-                               that has been shown. If an MPI rank leads the run, after every step */
+                               that has been shown; a resumed run may show that of its checkpoint once more. After every
+                               step where bodies are rigid, and if an MPI rank leads the run */
 } dem_observer;
 
 /** Copies `observer`. At most 8; to be called before the first advance. One of a resumed simulation is shown the frames

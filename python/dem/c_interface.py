@@ -772,8 +772,8 @@ class dem_observer(SizedStructure):
         its results have the same bits
     step_touching: not 0: besides after every accepted step in which something touches: in which contacts with obstacles
         change, or at whose end one is closed or surfaces of bodies push each other. And before the contact events of a
-        step with the state from which it goes, unless that has been shown. If an MPI rank leads the run, after every
-        step"""
+        step with the state from which it goes, unless that has been shown; a resumed run may show that of its
+        checkpoint once more. After every step where bodies are rigid, and if an MPI rank leads the run"""
     _fields_ = [("struct_size", c_size_t), ("interval", c_double), ("frame", dem_observer_frame),
                 ("step", dem_observer_step), ("event", dem_observer_event), ("checkpoint", dem_observer_checkpoint),
                 ("context", c_void_p), ("broken", dem_observer_broken), ("step_every", c_int64),

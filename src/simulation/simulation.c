@@ -101,10 +101,10 @@ static dem_status report_events(dem_simulation *s, double t)
 /* What has broken at the end of a step that a break has ended, or by the program, is reported with that state. */
 static dem_status report_breaks(dem_simulation *s, const break_list *breaks, dem_index from)
 {
-    dem_status status = DEM_OK;
-    if (from == breaks->n || !observers_want_breaks(&s->observers)) return DEM_OK;
-    TRY(show_state(s));
-    for (dem_index k = from; k < breaks->n; k++) {
+    const bool wanted = observers_want_breaks(&s->observers); /* of this rank */
+    if (from == breaks->n) return DEM_OK;
+    dem_status status = wanted ? show_state(s) : DEM_OK;
+    for (dem_index k = from; k < breaks->n && wanted; k++) {
         const dem_break what = break_list_at(breaks, k, s->model);
         status = status_first(status, observers_broken(&s->observers, s, &what));
     }
@@ -166,7 +166,8 @@ static dem_status report_step(dem_simulation *s)
     return DEM_OK;
 }
 
-/* Shows the state from which the step in hand goes, if contacts change in it. That step has been counted already. */
+/* Shows the state from which the step in hand goes, if contacts change in it, once. That step has been counted
+ * already. */
 static dem_status report_before_touching(dem_simulation *s)
 {
     const accepted_step before = {run_count_steps(s) - 1, s->t, false};
@@ -507,10 +508,9 @@ static dem_status advance(dem_simulation *s, double t_end)
             TRY(report_step(s));
             continue;
         }
-        const bool fresh = !s->in_hand;
-        const dem_status taken = fresh ? take_step(s) : DEM_OK;
+        const dem_status taken = s->in_hand ? DEM_OK : take_step(s);
         TRY(status_first(take_stop(s), taken));
-        if (fresh) TRY(stop_if_force_failed(s, report_before_touching(s)));
+        TRY(report_before_touching(s));
         TRY(stop_if_force_failed(s, report_frames(s, t_end)));
         if (t_end < s->path.end) break;
         TRY(commit_step(s));

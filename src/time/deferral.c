@@ -6,10 +6,11 @@
  * are made one after the other, just as they came. There a failed derivative is reported, as the sum's failure. Calls
  * that come in any other order are made, too, as soon as something else needs their vectors.
  *
- * A wave leaves only the end of the step and the norm. The stages' derivatives and the error stay due; ARKODE does not
- * read them, but if it did, the calls would be made after all. They are forgotten when one of the vectors that they
- * read or write gets another meaning, mostly with the next step. Of a step that is rejected the error may be asked for
- * when all its vectors are gone, so that then the calls are made at once. */
+ * A wave leaves only the end of the step and the norm, or, where ranks are still to judge it, this rank's sum of
+ * squares in one scale: for another scale the calls are made after all. The stages' derivatives and the error stay due;
+ * ARKODE does not read them, but if it did, the calls would be made after all. They are forgotten when one of the
+ * vectors that they read or write gets another meaning, mostly with the next step. Of a step that is rejected the error
+ * may be asked for when all its vectors are gone, so that then the calls are made at once. */
 #include "time/deferral.h"
 
 #include <stdlib.h>

@@ -42,7 +42,8 @@ typedef struct ode_domain {
     bool once_a_step; /* ghosts are integrated here, too, and are good enough for all stages of a step from a state in
                          which they were filled before its derivative was evaluated */
     /** Puts into y what other ranks have of it. Called before every derivative, or where it is `once_a_step` only
-     *  before those where steps begin and end; a fused step does so itself. */
+     *  before those where steps begin and end, and once more at the end of a step that is written anew, as the scale
+     *  of its error has changed; a fused step does so itself. */
     void (*fill_ghosts)(double *y, void *context);
     /** Takes part, with nothing of its own, in what other ranks sum in a derivative that this rank leaves out after a
      *  failure. */

@@ -60,12 +60,23 @@ static void evaluate_end(shared_attempt *s, double t, N_Vector y, N_Vector f)
     shared_attempt_evaluate_stage(s, t, y, f);
 }
 
+/* Stages that a wave has taken, one by one after all: they have not failed, whatever has behind them, and have been
+ * counted. */
+static void make_up(const shared_attempt *s)
+{
+    const attempt now = *s->owner.attempt;
+    s->owner.attempt->failed = ATTEMPT_NONE;
+    deferral_make_up(s->owner.deferral);
+    *s->owner.attempt = now;
+}
+
 /* Puts the sums of squares of this rank into the packet. A wave leaves no errors: where its own sum does not hold, its
- * stages are evaluated after all. */
+ * stages are made up. */
 static void add_squares(const shared_attempt *s, attempt_end *end)
 {
-    if (s->error != NULL && !deferral_has_squares(s->owner.deferral, s->scale[0], &end->error))
-        end->error = nvector_squares(s->error, s->owner.weights, s->scale[0]);
+    const bool has_error = s->error != NULL && !deferral_has_squares(s->owner.deferral, s->scale[0], &end->error);
+    if (has_error) make_up(s);
+    if (has_error) end->error = nvector_squares(s->error, s->owner.weights, s->scale[0]);
     end->state = nvector_squares(s->last, s->owner.weights, s->scale[1]);
 }
 
@@ -106,7 +117,7 @@ static int end_with_error(shared_attempt *s)
     }
     tell(s, NULL);
     if (!(s->norm[0] <= 1.0)) {
-        deferral_make_up(s->owner.deferral);
+        make_up(s);
     } else if (s->scale[0] != s->usual_scale) {
         if (problem_of(s)->domain->once_a_step) ode_problem_fill_ghosts(problem_of(s), nvector_shared(s->last));
         s->usual_scale = s->scale[0];
