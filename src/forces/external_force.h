@@ -40,6 +40,9 @@ void external_force_destroy(external_force *c);
 /** Evaluates the forces on the nodes of a query, into `force`; leaves `value` alone. */
 void external_force_ask(external_force *c, const dem_force_query *query, double *force);
 
+/** Counts a query that other ranks make, and this one has no node for. */
+void external_force_pass_over(external_force *c);
+
 /** Evaluates the forces on the nodes of a query, into `value`. */
 void external_force_evaluate(external_force *c, const dem_force_query *query);
 

@@ -95,6 +95,7 @@ double forces_damping_power(const forces *f, const double *x, const double *v)
 void forces_sum_nothing(const forces *f)
 {
     const exact_sum nothing = {0};
+    if (f->external != NULL) external_force_pass_over(f->external);
     if (have_work(f)) (void)reduce_sum(f->model->ranks, &nothing);
     if (forces_are_damped(f)) (void)reduce_sum(f->model->ranks, &nothing);
 }

@@ -60,7 +60,10 @@ void held_forces_destroy(held_forces *h)
 /* The caller's function sees the nodes side by side; the answers go to their places among all nodes. */
 void held_forces_ask(held_forces *h, external_force *external, const state_layout *layout, const double *y)
 {
-    if (h->n == 0) return;
+    if (h->n == 0) {
+        external_force_pass_over(external);
+        return;
+    }
     for (dem_index k = 0; k < h->n; k++) {
         state_copy_row(layout, h->x + state_row(layout, k), state_x(layout, y, h->nodes[k]));
         state_copy_row(layout, h->v + state_row(layout, k), state_v(layout, y, h->nodes[k]));

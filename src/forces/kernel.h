@@ -24,7 +24,7 @@ typedef struct kernel {
     int n_shares;          /* of its loops */
     double *rings;         /* [threads of the team][ring_size] */
     size_t ring_size;      /* doubles */
-    uint8_t *guarded;      /* [n_blocks] */
+    uint8_t *guarded;      /* [n_blocks + 8], zeros behind the blocks */
     double *sums;          /* [n_shares] */
     sweep_limits *limit;   /* [n_blocks + 1] the least of the thresholds that are watched, last that of the nodes behind
                                all blocks; NULL: none are */
