@@ -33,7 +33,7 @@ static void mark_parts(const dem_lattice *l, dem_index *part, unsigned char *mar
 dem_status breakable_nodes_mark(const dem_lattice *l, unsigned char *marked)
 {
     for (dem_index i = 0; i < l->n_nodes; i++) marked[i] = 0;
-    if (l->strength == NULL && l->critical_stretch == NULL) return DEM_OK;
+    if (!breakable_lattice(l)) return DEM_OK;
     dem_index *part = lattice_zeros(l->n_nodes, sizeof *part), pair[2];
     CHECK_MEMORY(part);
     union_find_start(part, l->n_nodes);

@@ -7,6 +7,12 @@
 
 #include <dem/dem.h>
 
+/** Whether elements of a lattice have limits. */
+static inline bool breakable_lattice(const dem_lattice *lattice)
+{
+    return lattice->strength != NULL || lattice->critical_stretch != NULL;
+}
+
 /** Whether an element may break at all: it has a limit, and its body is not rigid. Elements are numbered: first the
  *  triangles of a lattice, then its springs. */
 bool breakable_element(const dem_lattice *lattice, dem_index element);

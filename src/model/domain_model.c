@@ -90,12 +90,6 @@ static dem_status cut_lattice(dem_model *m, const dem_lattice *whole, const plac
     return lattice_cut_create(&m->lattice, whole, &list);
 }
 
-/* Whether anything may break by itself. */
-static bool may_break(const dem_lattice *l)
-{
-    return l->strength != NULL || l->critical_stretch != NULL;
-}
-
 /* ---- what is found of the whole once ---- */
 
 typedef struct whole_lattice {
@@ -128,7 +122,7 @@ static dem_status find_common(const dem_model *whole, const mesh_boundary *bound
     for (dem_index i = 0; i < l->n_nodes; i++)
         if ((has_obstacles && l->flags[i] & DEM_NODE_CONTACT) || l->flags[i] & DEM_NODE_RIGID) is_common[i] = 1;
     if (boundary != NULL) mesh_boundary_mark(boundary, is_common, 1);
-    if (has_obstacles || may_break(l)) common_nodes_add_rings(l, domain_model_rings(l), is_common);
+    if (has_obstacles || breakable_lattice(l)) common_nodes_add_rings(l, domain_model_rings(l), is_common);
     return DEM_OK;
 }
 
@@ -136,8 +130,7 @@ static dem_status find_common(const dem_model *whole, const mesh_boundary *bound
  * rings. Where something may break it does so on other ranks, too. */
 static bool may_have_rings(const dem_lattice *l)
 {
-    return l->viscosity == NULL && l->strength == NULL && l->critical_stretch == NULL &&
-           l->compressive_strength == NULL;
+    return l->viscosity == NULL && !breakable_lattice(l);
 }
 
 /* Further rings are integrated on several ranks: they must not be many beside the nodes that there are. With less nodes
@@ -315,7 +308,7 @@ static dem_status compile_surface(dem_model *m, bool touching)
 {
     m->touching->has_all = touching;
     TRY(surface_compile_boundary(&m->surface, &m->lattice, &m->touching->boundary, SURFACE_TOUCHING));
-    if (touching || may_break(&m->lattice)) return DEM_OK;
+    if (touching || breakable_lattice(&m->lattice)) return DEM_OK;
     touching_bodies_free(m->touching);
     free(m->touching);
     m->touching = NULL;

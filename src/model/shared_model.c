@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Every rank compiles the whole and cuts its part from it (model/domain_model.c), unless rank 0 has it and cuts the
- * parts of all. Where all have it they have to have the same lattice
- * and obstacles: lists of what they send to each other, and so all that follows, are made of these. Whether they do is
- * seen from a hash of the arrays, as the model holds them. */
+ * parts of all. Where all have it they have to have the same lattice and obstacles: lists of what they send to each
+ * other, and so all that follows, are made of these. Whether they do is seen from a hash of the arrays, as the model
+ * holds them. */
 #include "model/shared_model.h"
 
 #include <stdlib.h>
@@ -13,6 +13,7 @@
 #include "base/status.h"
 #include "domain/partition.h"
 #include "lattice/lattice_arrays.h"
+#include "model/breakable_nodes.h"
 #include "model/domain_model.h"
 
 /* ---- whether all have the same ---- */
@@ -82,8 +83,8 @@ static dem_status prepare(dem_model **whole, int32_t **owner, const dem_private_
 static bool may_touch(const dem_model *whole, dem_private_touching touching)
 {
     const dem_lattice *l = &whole->lattice;
-    const bool breaks = l->strength != NULL || l->critical_stretch != NULL; /* and so is common anyway */
-    if (touching == DEM_PRIVATE_TOUCHING_UNKNOWN) return whole->n_bodies > 1 || whole->obstacles.n > 0 || breaks;
+    if (touching == DEM_PRIVATE_TOUCHING_UNKNOWN) /* what may break is common anyway */
+        return whole->n_bodies > 1 || whole->obstacles.n > 0 || breakable_lattice(l);
     return touching == DEM_PRIVATE_TOUCHING_SOME;
 }
 

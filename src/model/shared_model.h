@@ -30,7 +30,7 @@ typedef struct dem_private_whole {
  *  the caller's as before. No program may call this.
  *  \param whole  the same on all ranks
  *  \return as dem_model_create() and domain_model_create(); DEM_ERROR_ARGUMENT if the ranks' lattices or obstacles
- *  differ, or ranks are more than nodes */
+ *  differ; DEM_ERROR_MODEL for more ranks than nodes */
 DEM_API dem_status dem_private_share_model(dem_model **out, const dem_private_whole *whole, const ranks *r);
 
 /** The same of a model that rank 0 alone has.

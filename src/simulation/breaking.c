@@ -33,7 +33,7 @@ static dem_status follow_state(dem_simulation *s, const double *y)
     return y != NULL ? body_contact_follow(s, y) : DEM_OK;
 }
 
-/* Ranks that share the model do not. */
+/* Of ranks the simulation that leads them does, in the whole (led_run_look_for_overlaps()). */
 static bool looks_for_overlaps(const dem_simulation *s)
 {
     return s->model->domain == NULL;
@@ -153,7 +153,7 @@ static dem_index most_in_step(const dem_simulation *s)
 dem_status breaking_create(dem_simulation *s)
 {
     const dem_lattice *l = &s->model->lattice;
-    if (l->strength == NULL && l->critical_stretch == NULL) return DEM_OK;
+    if (!breakable_lattice(l)) return DEM_OK;
     TRY(element_state_begin(&s->elements, l, &s->model->springs));
     if (l->own_stress != NULL) TRY(element_state_prepare(&s->elements)); /* which needs the shares of springs */
     s->forces.elements = &s->elements;
@@ -358,7 +358,8 @@ static dem_status save_levels(const element_state *elements, dem_checkpoint *che
     return status;
 }
 
-/* A run in which nothing has broken puts nothing, so that its checkpoint is that of a library which breaks nothing. */
+/* A run in which nothing can break by itself, and no program has broken anything, puts nothing, so that its checkpoint
+ * is that of a library which breaks nothing. */
 dem_status breaking_save(const dem_simulation *s, dem_checkpoint *checkpoint)
 {
     const element_state *elements = s->forces.elements;
@@ -453,13 +454,23 @@ static dem_status break_flagged(const dem_simulation *s, element_state *elements
     return DEM_OK;
 }
 
+static bool is_whole(const dem_lattice *l, const element_flags *flags)
+{
+    for (dem_index k = 0; k < l->n_triangles; k++)
+        if (flags->triangle[k] || (flags->level != NULL && flags->level[k])) return false;
+    for (dem_index k = 0; k < l->n_springs; k++)
+        if (flags->spring[k]) return false;
+    return true;
+}
+
 /* What is the same already is not made anew: the run that takes a checkpoint goes on from it, too. All else follows
  * from these flags. */
 static bool is_the_same(const dem_simulation *s, const element_flags *flags)
 {
     const element_state *now = s->forces.elements;
     const dem_lattice *l = &s->model->lattice;
-    if (now == NULL || memcmp(now->triangle, flags->triangle, (size_t)l->n_triangles) != 0) return false;
+    if (now == NULL) return is_whole(l, flags);
+    if (memcmp(now->triangle, flags->triangle, (size_t)l->n_triangles) != 0) return false;
     for (dem_index k = 0; flags->level != NULL && k < l->n_triangles; k++)
         if (element_state_level(now, k) != flags->level[k]) return false;
     for (dem_index k = 0; k < l->n_springs; k++)

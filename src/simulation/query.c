@@ -264,8 +264,10 @@ static dem_status find_elements(const dem_simulation *s, const element_state **o
 {
     const dem_simulation *part = s->leads != NULL ? led_run_part(s->leads) : s;
     (void)contact_of(part);
-    if (s->leads != NULL && !s->measures->has_elements) TRY(shared_breaks_show((dem_simulation *)s, part));
-    s->measures->has_elements = true;
+    if (s->leads != NULL && !s->measures->has_elements) {
+        TRY(shared_breaks_show((dem_simulation *)s, part));
+        s->measures->has_elements = true;
+    }
     *out = s->forces.elements;
     return DEM_OK;
 }

@@ -67,7 +67,9 @@ static dem_status check(const flags *f, const unsigned char *whole, const unsign
     for (dem_index k = 0; k < f->n; k++) known += own[k] != 0 && breakable[f->nodes[f->arity * k]];
     const dem_index all = count(whole, f->n_whole);
     CHECK(known == all, DEM_ERROR_MODEL,
-          "in the checkpoint %lld of the %s were broken by a program, which ranks cannot share yet",
+          "in the checkpoint %lld of the %s are not of what may break by itself: ranks cannot share what a program "
+          "breaks "
+          "yet",
           (long long)(all - known), f->name);
     return DEM_OK;
 }

@@ -127,7 +127,8 @@ typedef struct outcome {
     double *at_breaks;     /* [MOST_BREAKS] J, the kinetic energy then */
     bool asks;             /* a run that keeps the first checkpoint in which something is broken: */
     dem_checkpoint *kept;
-    double kept_t;      /* s */
+    double kept_t; /* s */
+    dem_index kept_breaks;
     char failure[TEXT]; /* empty: none */
 } outcome;
 
@@ -215,6 +216,7 @@ static dem_status keep_checkpoint(void *context, const dem_simulation *s, dem_ch
     outcome *o = context;
     if (o->kept != NULL || o->n_breaks == 0) return DEM_OK;
     o->kept_t = ask_state(s).t;
+    o->kept_breaks = o->n_breaks;
     assert_ok(dem_checkpoint_create(&o->kept));
     return checkpoint_entries_copy(o->kept, checkpoint);
 }
@@ -312,6 +314,7 @@ static void check(kind k, dem_method method, dem_contact_method contact)
     make_outcome(&whole, l);
     assert_ok(run_led(s.model, &s, NULL, NULL, &whole));
     assert_true(k != SOFTENED || whole.stops[N_STOPS - 1].energy.fracture > 0.0);
+    assert_true(k == SOFTENED || whole.n_breaks > 0);
     assert_true(k > STRETCHED || whole.stops[N_STOPS - 1].surfaces.pushing > 0 || contact == DEM_CONTACT_EXACT);
     for (int q = 0; q < (is_long ? 4 : 1); q++) {
         assert_ok(partition_bisect(l, numbers[q], owner));
@@ -403,6 +406,7 @@ static void lead(const scene *s, int n_ranks, const outcome *from, const outcome
     rank_threads_run(n_ranks, lead_as_rank, &(led_scene){s, from, &led});
     assert_same(&led, whole, from != NULL ? first_stop(s, from->kept_t) : 0);
     if (led.asks) assert_same_checkpoint(led.kept, whole->kept);
+    assert_int_equal(led.n_breaks, whole->n_breaks - (from != NULL ? from->kept_breaks : 0));
     free_outcome(&led);
 }
 
@@ -416,6 +420,7 @@ TEST(led_runs_show_breaks_and_go_on_with_them)
         make_outcome(&whole, dem_model_lattice(s.model));
         whole.asks = true;
         assert_ok(run_led(s.model, &s, NULL, NULL, &whole));
+        assert_true(whole.kept != NULL && (k == SOFTENED || whole.n_breaks > whole.kept_breaks));
         lead(&s, 3, NULL, &whole);
         lead(&s, 2, &whole, &whole);
         if (is_long) lead(&s, 7, &whole, &whole);
@@ -470,8 +475,8 @@ TEST(what_a_program_has_broken_elsewhere_is_refused)
     assert_ok(checkpoint_entries_copy(from.kept, dem_simulation_checkpoint(alone)));
     rank_threads_run(2, lead_as_rank, &(led_scene){&s, &from, &led});
     assert_string_equal(led.failure,
-                        "in the checkpoint 1 of the broken triangles were broken by a program, which ranks cannot "
-                        "share yet");
+                        "in the checkpoint 1 of the broken triangles are not of what may break by itself: ranks cannot "
+                        "share what a program breaks yet");
     dem_simulation_destroy(alone);
     free_outcome(&from);
     free_outcome(&led);
