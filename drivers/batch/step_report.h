@@ -31,7 +31,7 @@ void step_report_print_details(FILE *out, const dem_simulation *simulation);
  *  \param[out] why  [STEP_REPORT_WHY], "" if it is not */
 bool step_report_is_long(const dem_simulation *simulation, char *why);
 
-/** To be called after every accepted step. */
+/** To be called after accepted steps: the largest is that of these. */
 void step_report_follow(step_report *p, const dem_simulation *simulation, const dem_progress *now);
 
 void step_report_print_largest(FILE *out, const step_report *p);

@@ -35,13 +35,14 @@
  *  elements have their numbers in the whole lattice, and with what is broken in its part.
  *
  *  Functions of the program, external forces and motions of obstacles, are called on each rank, by that rank alone, and
- *  answer alike on all: dem_force and dem_motion say what they are asked. A failure of one is that of all ranks.
+ *  answer alike on all: dem_force and dem_motion say what they are asked. A failure of one is that of all ranks. Where
+ *  there is such a function all ranks watch the same events and breaks, as each look asks it.
  *
  *  Ranks cannot share yet, and refuse: a body alone without obstacles that touches itself unless it may break
  *  (DEM_ERROR_ARGUMENT by dem_simulation_create()), as the model would have to be shared for it before options are
- *  known; what a program breaks; trajectories, overlaps of bodies and their fragments, which are of the whole lattice
- *  at once, that no rank keeps. `mpirun dem_batch` has all but what a program breaks: there rank 0 knows the options,
- *  and has the whole besides its part.
+ *  known; what a program breaks, and a motion that it sets; trajectories, overlaps of bodies, their fragments and the
+ *  energy of cracks, which are of the whole lattice at once, that no rank keeps. `mpirun dem_batch` has all but what a
+ *  program breaks: there rank 0 knows the options, and has the whole besides its part.
  *
  *  MPI is initialised and finalised by the program: models are created after the one and destroyed before the other.
  *  All calls come from one thread, that of MPI_Init() or MPI_Init_thread() unless MPI has MPI_THREAD_SERIALIZED. A
@@ -62,7 +63,7 @@ extern "C" {
  *  \param lattice    the same on all ranks, as are obstacles and n_obstacles
  *  \param obstacles  [n_obstacles]
  *  \return as dem_model_create(); DEM_ERROR_ARGUMENT if lattices or obstacles differ, MPI is not initialised, or libdem
- *  has another version than libdem_mpi; DEM_ERROR_MODEL for what ranks cannot share yet, and more ranks than nodes */
+ *  has another version than libdem_mpi; DEM_ERROR_MODEL also for more ranks than nodes */
 DEM_API dem_status dem_model_create_mpi(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
                                         dem_index n_obstacles, MPI_Comm communicator);
 

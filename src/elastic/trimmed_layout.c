@@ -55,7 +55,8 @@ static dem_status copy_sets(layout *out, const layout *whole)
     return intern_copy(&out->couples, &whole->couples);
 }
 
-/* Sets that may change, entries and where these are: all else is that of the whole body. */
+/* Sets that may change, entries and where these are: all else is that of the whole body. In `lowest` broken triangles
+ * stay, which only cost a second look where they are folded. */
 static dem_status copy_layout(layout *out, const layout *whole, bool softens)
 {
     layout_part *const parts[n_parts] = {&out->springs, &out->terms, &out->corners, &out->couplings,
