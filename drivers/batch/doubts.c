@@ -15,6 +15,7 @@ enum { most_listed = 16 }; /* bodies */
 static const double light = 0.97;       /* mass over that of the true shape */
 static const double least_across = 8.0; /* spacings of a wall */
 static const double fast = 0.1;         /* of the wave speed */
+static const double pressed = 0.1;      /* energy of contact over that of the motion */
 
 /* Facts that were made without a deck belong to no group. */
 static bool is_rigid(const deck *d, size_t k)
@@ -105,6 +106,17 @@ void doubts_of_overlap(run_log *log, const dem_simulation *simulation)
                  "bodies overlap at t = 0, which nothing undoes: node %lld is inside triangle %lld at (%g, %g) m; move "
                  "a body by 'position' in &body",
                  (long long)o.node, (long long)o.triangle, o.x[0], o.x[1]);
+}
+
+/* Surfaces nearer to each other than the contact thickness push each other, and what is stiff flies off. */
+void doubts_of_pressing(run_log *log, const dem_simulation *simulation)
+{
+    const dem_energy e = ask_energy(simulation);
+    if (ask_progress(simulation).t > 0.0 || !(e.contact > pressed * e.kinetic)) return;
+    run_log_warn(log,
+                 "surfaces are pressed together at t = 0 with %.4g J, and bodies move with %.4g J: they start nearer "
+                 "than the contact thickness; if that is not meant move a body by 'position' in &body",
+                 e.contact, e.kinetic);
 }
 
 void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, dem_index number, double wave_speed)

@@ -24,6 +24,10 @@ void doubts_of_step(run_log *log, const dem_simulation *simulation);
 /** Warns of bodies that overlap at t = 0. */
 void doubts_of_overlap(run_log *log, const dem_simulation *simulation);
 
+/** Warns of bodies that are pressed together at t = 0, or rigid ones against an obstacle, with much energy beside that
+ *  of their motion. */
+void doubts_of_pressing(run_log *log, const dem_simulation *simulation);
+
 /** Warns if body b, from 0, comes to the obstacles fast for the waves in it.
  *  \param number  of its group in the deck, from 0
  *  \param wave_speed  m/s, of long waves */

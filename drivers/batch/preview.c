@@ -519,6 +519,7 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
     warn_rest_speed(log, &o);
     doubts_of_step(log, simulation);
     doubts_of_overlap(log, simulation);
+    doubts_of_pressing(log, simulation);
     if (log->verbose) print_details(log->out, d, simulation);
     print_output(log->out, output, &needed);
 }

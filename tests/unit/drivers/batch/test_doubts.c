@@ -158,8 +158,10 @@ TEST(pieces_that_touch_other_bodies_only_are_doubted)
                               "faces of a crack; bodies = 'all' in &contact lets them touch\n");
 }
 
-/* Two rectangles, of which the second one is moved by (x, 0.3). */
-static size_t count_overlaps(double x)
+typedef void doubts_of_run(run_log *log, const dem_simulation *simulation);
+
+/* Of two rectangles, of which the second one is moved by (x, 0.3), and both by a speed. */
+static size_t count_doubts_of(doubts_of_run *find, dem_bodies bodies, double x, double speed)
 {
     const dem_material solid =
         SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 1.0);
@@ -168,6 +170,7 @@ static size_t count_overlaps(double x)
     support_run run;
     assert_non_null(log.out);
     options.v_scale = 1.0;
+    options.bodies = bodies;
     CLEANUP(dem_lattice_free) dem_lattice both = support_rectangle(4.0, 4.0, 1.0, &solid);
     CLEANUP(dem_lattice_free) dem_lattice second = support_rectangle(4.0, 4.0, 1.0, &solid);
     for (dem_index i = 0; i < second.n_nodes; i++) { /* not along a row: nodes on edges are not inside */
@@ -175,8 +178,9 @@ static size_t count_overlaps(double x)
         second.x[2 * i + 1] += 0.3;
     }
     assert_ok(dem_lattice_append(&both, &second));
+    assert_ok(dem_lattice_launch(&both, (const double[2]){speed, 0.0}));
     support_open(&run, &both, NULL, 0, &options);
-    doubts_of_overlap(&log, run.simulation);
+    find(&log, run.simulation);
     support_close(&run);
     read_log(&log);
     return log.n_warnings;
@@ -184,10 +188,20 @@ static size_t count_overlaps(double x)
 
 TEST(bodies_that_overlap_at_the_start_are_doubted)
 {
-    assert_int_equal(count_overlaps(9.0), 0);
-    assert_int_equal(count_overlaps(2.2), 1);
+    assert_int_equal(count_doubts_of(doubts_of_overlap, DEM_BODIES_NONE, 9.0, 0.0), 0);
+    assert_int_equal(count_doubts_of(doubts_of_overlap, DEM_BODIES_NONE, 2.2, 0.0), 1);
     assert_non_null(strstr(text, "warning    bodies overlap at t = 0, which nothing undoes: node "));
     assert_non_null(strstr(text, " m; move a body by 'position' in &body\n"));
+}
+
+/* The contact thickness is a fifth of a spacing; with 3.9 the gap is a third of it. */
+TEST(bodies_that_are_pressed_together_at_the_start_are_doubted)
+{
+    assert_int_equal(count_doubts_of(doubts_of_pressing, DEM_BODIES_OTHERS, 4.3, 0.0), 0);
+    assert_int_equal(count_doubts_of(doubts_of_pressing, DEM_BODIES_OTHERS, 3.9, 1e4), 0);
+    assert_int_equal(count_doubts_of(doubts_of_pressing, DEM_BODIES_OTHERS, 3.9, 0.0), 1);
+    assert_non_null(strstr(text, "warning    surfaces are pressed together at t = 0 with "));
+    assert_non_null(strstr(text, " J, and bodies move with 0 J: they start nearer than the contact thickness; "));
 }
 
 TEST_GROUP(scratch_make, scratch_remove);
