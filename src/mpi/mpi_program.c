@@ -20,6 +20,7 @@ void *dem_private_program_begin(int *rank, int *size, volatile sig_atomic_t *con
     for (int k = 0; k < RANKS_REQUESTS; k++) r->requests[k] = requests[k];
     r->lacks_memory = lacks_memory;
     r->program = program;
+    mpi_ranks_measure(r);
     *rank = r->rank;
     *size = r->size;
     return r;

@@ -12,4 +12,7 @@
  *  \return NULL, on all ranks, if one of them is out of memory */
 ranks *mpi_ranks_create(MPI_Comm communicator);
 
+/** Lets the rank know from now on how long it is busy. */
+void mpi_ranks_measure(ranks *r);
+
 #endif
