@@ -143,7 +143,8 @@ static domain_shares shares_of(const ranks *r, const dem_model *whole, const dom
     domain_shares shares = {
         .n_ranks = r->size, .owner = s->owner, .is_common = is_common, .n_rings = s->n_rings, .most_ghosts = INT64_MAX};
     if (s->n_rings > 0) return shares;
-    shares.n_rings = n >= (dem_index)LEAST_NODES * r->size && may_have_rings(&whole->lattice) ? STEP_RINGS : 1;
+    const int useful = s->useful_rings > 0 ? s->useful_rings : STEP_RINGS;
+    shares.n_rings = n >= (dem_index)LEAST_NODES * r->size && may_have_rings(&whole->lattice) ? useful : 1;
     shares.most_ghosts = n / PART;
     return shares;
 }

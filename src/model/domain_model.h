@@ -10,7 +10,8 @@
 typedef struct domain_model_shares {
     const int32_t *owner; /* [n_nodes] the rank of each node */
     bool touching;        /* whether bodies may touch each other, or themselves: all ranks have their surfaces then */
-    int n_rings;          /* of ghosts; 0: as many as pay */
+    int useful_rings;     /* of ghosts, of which steps have a use; 0: not known, as many as Fehlberg's pair has */
+    int n_rings;          /* of ghosts; 0: the useful ones if they pay, else one */
 } domain_model_shares;
 
 /** Cuts the model of a rank from one of the whole lattice, which may be destroyed afterwards. Own nodes have the

@@ -102,9 +102,10 @@ dem_status dem_private_share_model(dem_model **out, const dem_private_whole *who
     int32_t *owner = NULL;
     dem_status status = reduce_status(r, prepare(&compiled, &owner, whole, r->size), 0.0);
     if (status == DEM_OK)
-        status =
-            share(out, r, compiled,
-                  &(domain_model_shares){owner, may_touch(compiled, whole->touching), whole->has_one_ring ? 1 : 0});
+        status = share(out, r, compiled,
+                       &(domain_model_shares){.owner = owner,
+                                              .touching = may_touch(compiled, whole->touching),
+                                              .useful_rings = whole->useful_rings});
     dem_model_destroy(compiled);
     free(owner);
     return status;
@@ -114,13 +115,12 @@ dem_status shared_model_distribute(dem_model **out, const dem_model *whole, cons
                                    const ranks *r)
 {
     int32_t *owner = NULL;
-    const bool touching = about->touching == DEM_PRIVATE_TOUCHING_SOME;
     dem_status status = r->rank == 0 ? find_owners(&owner, &whole->lattice, about->weights, r->size) : DEM_OK;
+    const domain_model_shares shares = {
+        .owner = owner, .touching = about->touching == DEM_PRIVATE_TOUCHING_SOME, .useful_rings = about->useful_rings};
     status = reduce_status(r, status, 0.0);
     if (status == DEM_OK)
-        status =
-            domain_model_distribute(out, r, whole, &(domain_model_shares){owner, touching, about->has_one_ring ? 1 : 0},
-                                    about->obstacles, about->n_obstacles);
+        status = domain_model_distribute(out, r, whole, &shares, about->obstacles, about->n_obstacles);
     free(owner);
     if (status == DEM_OK) (*out)->ends_ranks = r->end != NULL;
     return status;

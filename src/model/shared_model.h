@@ -22,7 +22,7 @@ typedef struct dem_private_whole {
     dem_index n_obstacles;
     dem_private_touching touching;
     const double *weights; /* [nodes] >= 0, what they weigh in the partition; NULL: all the same */
-    bool has_one_ring;     /* of ghosts: no simulation integrates more (domain_model_shares) */
+    int useful_rings;      /* of ghosts, of which steps have a use; 0: not known */
 } dem_private_whole;
 
 /** Shares the nodes out among ranks, each of which gets the model of its part. Collective: whatever fails on one rank

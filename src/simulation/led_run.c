@@ -17,6 +17,7 @@
 #include "simulation/shared_breaks.h"
 #include "simulation/shared_problem.h"
 #include "simulation/step_parts.h"
+#include "time/butcher.h"
 
 /* A frame of one of the whole's observers. */
 typedef struct frame_relay {
@@ -72,21 +73,21 @@ static void drop(led_run *l)
     l->is_observed = false;
 }
 
-/* Ghosts are integrated through the stages of a step, and where nothing acts that is known to their owners alone. */
-static bool needs_one_ring(const dem_options *o)
+/* One where no step integrates ghosts: as the method does not, or something acts that their owners alone know. */
+static int useful_rings(const dem_options *o)
 {
-    return o->method == DEM_METHOD_VERLET || o->n_boundaries > 0;
+    const int rings = butcher_rings_of(o->method);
+    return rings > 0 && o->n_boundaries == 0 ? rings : 1;
 }
 
 static dem_status create_part(led_run *l, const shared_problem *p, bool resumes, const dem_checkpoint *checkpoint)
 {
     const bool touching = p->options.bodies != DEM_BODIES_NONE;
-    const dem_private_whole about = {NULL,
-                                     p->obstacles,
-                                     p->n_obstacles,
-                                     touching ? DEM_PRIVATE_TOUCHING_SOME : DEM_PRIVATE_TOUCHING_NONE,
-                                     l->balance.weights,
-                                     needs_one_ring(&p->options)};
+    const dem_private_whole about = {.obstacles = p->obstacles,
+                                     .n_obstacles = p->n_obstacles,
+                                     .touching = touching ? DEM_PRIVATE_TOUCHING_SOME : DEM_PRIVATE_TOUCHING_NONE,
+                                     .weights = l->balance.weights,
+                                     .useful_rings = useful_rings(&p->options)};
     TRY(shared_model_distribute(&l->model, l->whole != NULL ? l->whole->model : NULL, &about, &l->ranks));
     if (resumes)
         TRY(dem_simulation_resume(&l->part, l->model, &p->options, checkpoint));

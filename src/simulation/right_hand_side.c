@@ -87,14 +87,11 @@ static void fill_ghosts(double *y, void *context)
 
 /* Whether there are enough rings of ghosts for a step of the method, and nothing acts on them that is known to their
  * owners alone, or that takes more rings, as the velocities of neighbours do. What contacts do concerns common nodes
- * only, and the rings are about these, too. Where the last stage is the end of the step, ARKODE adds up the end once
- * more behind its derivative: then ghosts are not those for which that is. */
+ * only, and the rings are about these, too. */
 static bool can_integrate_ghosts(const dem_simulation *s)
 {
-    butcher_table table;
-    if (s->options.method == DEM_METHOD_VERLET || butcher_load(&table, s->options.method) != DEM_OK) return false;
-    if (butcher_ends_in_stage(&table)) return false;
-    return s->model->domain->n_rings >= butcher_rings(&table) && s->boundaries.n == 0 && s->external == NULL &&
+    const int rings = butcher_rings_of(s->options.method);
+    return rings > 0 && s->model->domain->n_rings >= rings && s->boundaries.n == 0 && s->external == NULL &&
            !forces_couple_velocities(&s->forces);
 }
 

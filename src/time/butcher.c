@@ -282,3 +282,10 @@ double dem_method_growth(dem_method method, double omega_h)
     if (method == DEM_METHOD_VERLET) return verlet_integrator_growth(omega_h);
     return butcher_load(&table, method) == DEM_OK ? table_growth(&table, omega_h) : (double)NAN;
 }
+
+int butcher_rings_of(dem_method method)
+{
+    butcher_table table;
+    if (method == DEM_METHOD_VERLET || butcher_load(&table, method) != DEM_OK) return 0;
+    return butcher_ends_in_stage(&table) ? 0 : butcher_rings(&table);
+}

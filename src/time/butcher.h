@@ -32,6 +32,11 @@ bool butcher_ends_in_stage(const butcher_table *t);
  *  depend on the places of neighbours. */
 int butcher_rings(const butcher_table *t);
 
+/** The same of a method; 0: ghosts cannot be integrated through its steps. That is so with Verlet's, and where the last
+ *  stage is the end of the step: ARKODE adds up the end once more behind its derivative, and ghosts are not those for
+ *  which that is. */
+int butcher_rings_of(dem_method method);
+
 /** How far a step of any method reaches, Verlet's included.  \return DEM_ERROR_ARGUMENT as butcher_load() */
 dem_status butcher_reach(step_reach *out, dem_method method);
 

@@ -148,7 +148,11 @@ static bool check(const problem *p, unsigned long seed)
         draw_owners(owner, n, n_ranks, seed);
         rank_threads_run(
             n_ranks, run_rank,
-            &(shared_run){p, whole, {owner, p->options->bodies != DEM_BODIES_NONE, n_ranks == 2 ? 3 : 1}, ends});
+            &(shared_run){
+                p,
+                whole,
+                {.owner = owner, .touching = p->options->bodies != DEM_BODIES_NONE, .n_rings = n_ranks == 2 ? 3 : 1},
+                ends});
         for (int k = 0; k < n_ranks; k++)
             if (!is_same(&ends[k], &alone, n))
                 fail_msg("seed %lu, contact %d, method %d: rank %d of %d ends otherwise: '%s', alone '%s'", seed,

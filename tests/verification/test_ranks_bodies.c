@@ -259,7 +259,8 @@ static void share(const scene *s, int n_ranks, const int32_t *owner, const outco
     outcome all[MOST_RANKS];
     make_outcome(&all[0], whole->n_nodes);
     for (int k = 1; k < n_ranks; k++) all[k] = all[0];
-    shared_run c = {s, {owner, true, s->options.method == DEM_METHOD_FEHLBERG45 ? 3 : 0}, all};
+    shared_run c = {
+        s, {.owner = owner, .touching = true, .n_rings = s->options.method == DEM_METHOD_FEHLBERG45 ? 3 : 0}, all};
     rank_threads_run(n_ranks, run_rank, &c);
     for (int k = 0; k < n_ranks; k++) assert_same(&all[k], whole, 0);
     free_outcome(&all[0]);

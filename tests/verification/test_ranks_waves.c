@@ -188,7 +188,10 @@ static void check(const scene *s, int n_ranks, const outcome *whole, int n_stage
     for (int tiles = 0; tiles < 2; tiles++) {
         assert_ok(partition_bisect(l, n_ranks, owner));
         if (tiles) scatter(l, 50.3 * spacing, n_ranks, owner);
-        share(s, n_ranks, (domain_model_shares){owner, s->options.bodies != DEM_BODIES_NONE, STEP_RINGS}, whole);
+        share(s, n_ranks,
+              (domain_model_shares){
+                  .owner = owner, .touching = s->options.bodies != DEM_BODIES_NONE, .n_rings = STEP_RINGS},
+              whole);
         const int swept = atomic_load(&whole_sweeps);
         assert_in_range(swept, n_ranks * (attempts + 1) + (n_stages > 0), n_ranks * (attempts + 1 + n_stages));
         assert_true(atomic_load(&bands) > n_ranks * 24);
@@ -238,7 +241,7 @@ TEST(a_stage_that_is_not_finite_fails_alike)
         assert_int_equal(whole.status, DEM_ERROR_INTEGRATOR);
         CLEANUP(free_memory) int32_t *owner = malloc((size_t)l.n_nodes * sizeof *owner);
         assert_ok(partition_bisect(&l, 2, owner));
-        share(&s, 2, (domain_model_shares){owner, false, STEP_RINGS}, &whole);
+        share(&s, 2, (domain_model_shares){.owner = owner, .n_rings = STEP_RINGS}, &whole);
         free_outcome(&whole);
         dem_model_destroy(s.model);
     }

@@ -26,7 +26,8 @@ static void create(const ranks *r, void *context)
 {
     shared *s = context;
     const dem_model *whole = s->is_sent && r->rank > 0 ? NULL : s->whole;
-    const domain_model_shares shares = {whole != NULL ? s->owner : NULL, s->touching, s->n_rings};
+    const domain_model_shares shares = {
+        .owner = whole != NULL ? s->owner : NULL, .touching = s->touching, .n_rings = s->n_rings};
     dem_model **out = &s->models[r->rank];
     s->status[r->rank] =
         s->is_sent ? domain_model_distribute(out, r, whole, &shares, s->whole->obstacles.list, s->whole->obstacles.n)
@@ -137,7 +138,8 @@ TEST(a_domain_that_is_sent_is_the_one_that_is_cut)
     CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
     CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
     CLEANUP(free_model) dem_model *whole = support_model(&l, NULL, 0);
-    shared cut = {.whole = whole, .owner = owner}, sent = {.whole = whole, .owner = owner, .is_sent = true};
+    shared cut = {.whole = whole, .owner = owner, .touching = true, .n_rings = 3}, sent = cut;
+    sent.is_sent = true;
     rank_threads_run(N_RANKS, create, &cut);
     rank_threads_run(N_RANKS, create, &sent);
     for (int k = 0; k < N_RANKS; k++) {
@@ -147,6 +149,12 @@ TEST(a_domain_that_is_sent_is_the_one_that_is_cut)
         assert_memory_equal(a->number, b->number, (size_t)a->n_nodes * sizeof *a->number);
         assert_memory_equal(a->is_own, b->is_own, (size_t)a->n_nodes);
         assert_memory_equal(a->is_ghost, b->is_ghost, (size_t)a->n_nodes);
+        assert_memory_equal(a->is_outer, b->is_outer, (size_t)a->n_nodes);
+        assert_int_equal(a->n_rings, 3);
+        assert_int_equal(b->n_rings, 3);
+        assert_memory_equal(a->triangle, b->triangle, (size_t)cut.models[k]->lattice.n_triangles * sizeof *a->triangle);
+        assert_memory_equal(cut.models[k]->touching->boundary.outer, sent.models[k]->touching->boundary.outer,
+                            (size_t)a->n_nodes);
         assert_memory_equal(a->spring, b->spring, (size_t)cut.models[k]->lattice.n_springs * sizeof *a->spring);
         assert_int_equal(a->n_neighbours, b->n_neighbours);
         for (int n = 0; n < a->n_neighbours; n++) assert_true(same_neighbour(&a->neighbours[n], &b->neighbours[n]));

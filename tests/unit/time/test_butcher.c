@@ -136,3 +136,11 @@ TEST(rings_about_a_node_have_a_part_in_its_step)
         assert_int_equal(butcher_rings(&table), known[k].rings);
     }
 }
+
+TEST(methods_that_end_in_a_stage_and_verlets_integrate_no_ghosts)
+{
+    assert_int_equal(butcher_rings_of(DEM_METHOD_FEHLBERG45), 3);
+    assert_int_equal(butcher_rings_of(DEM_METHOD_DOPRI45), 0);
+    assert_int_equal(butcher_rings_of(DEM_METHOD_RK4), 0);
+    assert_int_equal(butcher_rings_of(DEM_METHOD_VERLET), 0);
+}
