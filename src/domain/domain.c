@@ -21,16 +21,6 @@ static int compare(const void *a, const void *b)
     return (p->node > q->node) - (p->node < q->node);
 }
 
-/* Sorts, and keeps one of equal ones.  \return how many are left */
-static dem_index sort_borders(border *list, dem_index n)
-{
-    dem_index kept = 0;
-    if (n > 0) qsort(list, (size_t)n, sizeof *list, compare);
-    for (dem_index k = 0; k < n; k++)
-        if (kept == 0 || compare(&list[k], &list[kept - 1]) != 0) list[kept++] = list[k];
-    return kept;
-}
-
 /* A list, or without room only how long it would be. */
 typedef struct borders {
     dem_index n;
@@ -142,7 +132,7 @@ static dem_status fill(domain *d, draft *from, dem_index *local)
           from->rank);
     list_borders(from);
     d->n_rings = from->rings->n_rings;
-    for (int k = 0; k < 2; k++) both[k]->n = sort_borders(both[k]->list, both[k]->n);
+    for (int k = 0; k < 2; k++) qsort(both[k]->list, (size_t)both[k]->n, sizeof *both[k]->list, compare);
     TRY(number_nodes(d, from, local));
     return list_neighbours(d, from, local);
 }

@@ -15,11 +15,10 @@
 typedef struct head {
     domain domain;               /* without its arrays */
     dem_index n[LATTICE_ITEMS];  /* of the lattice */
-    dem_index n_edges, n_bodies; /* of the boundary, and of the sums over bodies */
+    dem_index n_edges, n_bodies; /* of the boundary; bodies, of which each has its sums */
     dem_index n_shares;          /* of springs in stresses */
     dem_index n_rigid, n_rigid_nodes;
     bool edges_are_springs;
-    dem_index n_model_bodies;
     double spacing, omega_max, mass;
 } head;
 
@@ -33,7 +32,6 @@ static head head_of(const dem_model *m)
               .n_rigid = m->rigid.n,
               .n_rigid_nodes = m->rigid.n_nodes,
               .edges_are_springs = m->edges_are_springs,
-              .n_model_bodies = m->n_bodies,
               .spacing = m->spacing,
               .omega_max = m->omega_max,
               .mass = m->mass};
@@ -64,11 +62,10 @@ static void take_head(dem_model *m, const head *h)
     m->touching->boundary.lattice = &m->lattice;
     m->touching->boundary.n = h->n_edges;
     m->touching->domain = m->domain;
-    m->touching->n_bodies = h->n_bodies;
+    m->touching->n_bodies = m->n_bodies = h->n_bodies;
     m->rigid.n = h->n_rigid;
     m->rigid.n_nodes = h->n_rigid_nodes;
     m->edges_are_springs = h->edges_are_springs;
-    m->n_bodies = h->n_model_bodies;
     m->spacing = h->spacing;
     m->omega_max = h->omega_max;
     m->mass = h->mass;
