@@ -350,10 +350,10 @@ static void list_springs(const element_state *elements, unsigned char *flags)
 static dem_status save_levels(const element_state *elements, dem_checkpoint *checkpoint)
 {
     const size_t n = (size_t)elements->lattice->n_triangles;
-    if (elements->level != NULL) return dem_checkpoint_put(checkpoint, BREAKING_LEVELS, elements->level, n);
+    if (elements->level != NULL) return dem_checkpoint_put(checkpoint, SHARED_BREAKS_LEVELS, elements->level, n);
     unsigned char *none = calloc(n + 1, sizeof *none);
     CHECK(none != NULL, DEM_ERROR_MEMORY, "out of memory for what has softened in a checkpoint");
-    const dem_status status = dem_checkpoint_put(checkpoint, BREAKING_LEVELS, none, n);
+    const dem_status status = dem_checkpoint_put(checkpoint, SHARED_BREAKS_LEVELS, none, n);
     free(none);
     return status;
 }
@@ -370,10 +370,10 @@ dem_status breaking_save(const dem_simulation *s, dem_checkpoint *checkpoint)
     unsigned char *flags = malloc((size_t)l->n_springs + 1);
     CHECK(flags != NULL, DEM_ERROR_MEMORY, "out of memory for what is broken in a checkpoint");
     list_springs(elements, flags);
-    dem_status status = dem_checkpoint_put(checkpoint, BREAKING_SPRINGS, flags, (size_t)l->n_springs);
+    dem_status status = dem_checkpoint_put(checkpoint, SHARED_BREAKS_SPRINGS, flags, (size_t)l->n_springs);
     free(flags);
     if (status == DEM_OK)
-        status = dem_checkpoint_put(checkpoint, BREAKING_TRIANGLES, elements->triangle, (size_t)l->n_triangles);
+        status = dem_checkpoint_put(checkpoint, SHARED_BREAKS_TRIANGLES, elements->triangle, (size_t)l->n_triangles);
     if (status == DEM_OK && l->softening != NULL) status = save_levels(elements, checkpoint);
     if (status == DEM_OK) status = dem_checkpoint_put(checkpoint, of_burials, &burials, sizeof burials);
     const double taken = exact_sum_value(&s->fracture); /* rounded: every run goes on from there */
@@ -410,7 +410,7 @@ static dem_status find_levels(const dem_simulation *s, const dem_checkpoint *che
 {
     const dem_lattice *l = &s->model->lattice;
     if (l->softening == NULL) return DEM_OK;
-    TRY(find_bytes(checkpoint, BREAKING_LEVELS, l->n_triangles, out));
+    TRY(find_bytes(checkpoint, SHARED_BREAKS_LEVELS, l->n_triangles, out));
     for (dem_index k = 0; k < l->n_triangles; k++)
         CHECK((*out)[k] <= softening_levels(l->softening[k]), DEM_ERROR_IO,
               "triangle %lld in the checkpoint has softened %d times, it does so %d times at most", (long long)k,
@@ -487,8 +487,8 @@ dem_status breaking_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
     double taken;
     TRY(get_burials(s, checkpoint));
     if (dem_checkpoint_find(checkpoint, of_energy, &size) == NULL) return DEM_OK;
-    TRY(find_flags(checkpoint, BREAKING_TRIANGLES, l->n_triangles, &flags.triangle));
-    TRY(find_flags(checkpoint, BREAKING_SPRINGS, l->n_springs, &flags.spring));
+    TRY(find_flags(checkpoint, SHARED_BREAKS_TRIANGLES, l->n_triangles, &flags.triangle));
+    TRY(find_flags(checkpoint, SHARED_BREAKS_SPRINGS, l->n_springs, &flags.spring));
     TRY(find_levels(s, checkpoint, &flags.level));
     TRY(dem_checkpoint_get(checkpoint, of_energy, &taken, sizeof taken));
     CHECK(isfinite(taken), DEM_ERROR_IO, "the energy of fracture in the checkpoint is not finite");

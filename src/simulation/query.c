@@ -570,7 +570,8 @@ static bool is_residual_known(const dem_simulation *s)
     return s->path.f1 != NULL && !s->at_event && s->path.end == s->path.t1;
 }
 
-/* Something else may be seen, and the ghosts of the integrator's state are not all known. */
+/* Something else may be seen, and of the end of the step, which is the integrator's, ghosts are not all known: they are
+ * filled where they belong, and nothing else of it changes. */
 double query_residual(const dem_simulation *s)
 {
     double *y = (double *)(uintptr_t)s->path.y1;

@@ -2,7 +2,6 @@
 #include "simulation/shared_breaks.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/status.h"
 #include "model/breakable_nodes.h"
@@ -24,10 +23,10 @@ static void list_entries(const dem_model *m, flags out[N_ENTRIES])
 {
     const dem_lattice *l = &m->lattice;
     const domain *d = m->domain;
-    const flags of_triangles = {BREAKING_TRIANGLES, l->n_triangles, d->n_triangles, d->triangle, 3, l->triangles};
+    const flags of_triangles = {SHARED_BREAKS_TRIANGLES, l->n_triangles, d->n_triangles, d->triangle, 3, l->triangles};
     out[0] = out[1] = of_triangles;
-    out[1].name = BREAKING_LEVELS;
-    out[2] = (flags){BREAKING_SPRINGS, l->n_springs, d->n_springs, d->spring, 2, l->ends};
+    out[1].name = SHARED_BREAKS_LEVELS;
+    out[2] = (flags){SHARED_BREAKS_SPRINGS, l->n_springs, d->n_springs, d->spring, 2, l->ends};
 }
 
 static dem_status expand(const flags *f, dem_checkpoint *checkpoint)
@@ -68,8 +67,7 @@ static dem_status check(const flags *f, const unsigned char *whole, const unsign
     const dem_index all = count(whole, f->n_whole);
     CHECK(known == all, DEM_ERROR_MODEL,
           "in the checkpoint %lld of the %s are not of what may break by itself: ranks cannot share what a program "
-          "breaks "
-          "yet",
+          "breaks yet",
           (long long)(all - known), f->name);
     return DEM_OK;
 }

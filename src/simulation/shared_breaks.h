@@ -7,9 +7,9 @@
 #include "simulation/private.h"
 
 /* Entries of a checkpoint: a byte for each triangle, or spring, of the model. */
-#define BREAKING_TRIANGLES "broken triangles"
-#define BREAKING_SPRINGS   "broken springs"
-#define BREAKING_LEVELS    "softened triangles"
+#define SHARED_BREAKS_TRIANGLES "broken triangles"
+#define SHARED_BREAKS_SPRINGS   "broken springs"
+#define SHARED_BREAKS_LEVELS    "softened triangles"
 
 /** Makes a checkpoint's flags of the part those of the whole; on any rank, by itself.  \return DEM_ERROR_MEMORY */
 dem_status shared_breaks_expand(const dem_simulation *s, dem_checkpoint *checkpoint);
