@@ -7,7 +7,7 @@
 /* An array whose items are `n` numbers. */
 #define OF(kind, member, n)                                                                                            \
     {                                                                                                                  \
-#member, offsetof(dem_lattice, member), kind, (n) * sizeof *((dem_lattice *)NULL)->member                      \
+        offsetof(dem_lattice, member), kind, (n) * sizeof *((dem_lattice *)NULL)->member                               \
     }
 
 const lattice_array lattice_arrays[LATTICE_ARRAYS] = {

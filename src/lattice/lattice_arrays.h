@@ -8,7 +8,6 @@
 typedef enum lattice_items { LATTICE_NODES, LATTICE_SPRINGS, LATTICE_TRIANGLES, LATTICE_ITEMS } lattice_items;
 
 typedef struct lattice_array {
-    const char *name;
     size_t offset;    /* of the pointer to it in a dem_lattice */
     lattice_items of; /* what it has an item for */
     size_t size;      /* bytes of an item */
