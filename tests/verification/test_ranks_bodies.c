@@ -427,7 +427,7 @@ static void assert_said(const scene *s, bool touching, const char *message)
     const dem_lattice *l = dem_model_lattice(s->model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     draw(l->n_nodes, 3, 1, owner);
-    said c = {.scene = s, .shares = {owner, touching, 0}};
+    said c = {.scene = s, .shares = {.owner = owner, .touching = touching}};
     rank_threads_run(3, say, &c);
     for (int k = 0; k < 3; k++) assert_string_equal(c.messages[k], message);
 }
