@@ -239,19 +239,29 @@ static bool pass_step(const automaton *c, broad_phase *w, double h, double speed
     return !broad_phase_covers_all(w, broad_phase_reach(&c->set, speed));
 }
 
-bool automaton_fly(automaton *c, const automaton_flight *flight)
+/* Follows steps likewise, the last of which goes so far at most, m.  \return whether all can be followed */
+static bool pass_steps(const automaton *c, broad_phase *w, const automaton_flight *flight, double *way)
 {
-    const bool idle = broad_phase_is_idle(&c->broad_phase, &c->set);
-    broad_phase w = c->broad_phase;
-    double way = 0.0;
-    if (!is_free(c)) return false;
+    const bool idle = broad_phase_is_idle(w, &c->set);
     for (int k = 0; k < flight->n && !idle; k++) {
         const double speed = sqrt(flight->square[k]) + surface_speed(&c->set.scene);
-        if (!pass_step(c, &w, flight->t[k + 1] - flight->t[k], speed, &way)) return false;
+        if (!pass_step(c, w, flight->t[k + 1] - flight->t[k], speed, way)) return false;
     }
-    c->broad_phase = w;
+    return true;
+}
+
+bool automaton_can_fly(const automaton *c, const automaton_flight *flight)
+{
+    broad_phase w = c->broad_phase;
+    double way;
+    return is_free(c) && pass_steps(c, &w, flight, &way);
+}
+
+void automaton_fly(automaton *c, const automaton_flight *flight)
+{
+    double way = 0.0;
+    (void)pass_steps(c, &c->broad_phase, flight, &way);
     c->way = way;
     c->all = c->quiet = false;
     c->solved = flight->t[flight->n];
-    return true;
 }

@@ -65,9 +65,10 @@ typedef struct automaton_flight {
 /** Whether steps for so long, s, may well be of this kind. */
 bool automaton_may_fly(const automaton *c, double time);
 
-/** Follows such steps as automaton_begin_step() and automaton_end_step() do for each.
- *  \return false if they are not: nothing has changed then */
-bool automaton_fly(automaton *c, const automaton_flight *flight);
+/** Whether the steps were of this kind; and then, follows them as automaton_begin_step() and automaton_end_step() do
+ *  each. */
+bool automaton_can_fly(const automaton *c, const automaton_flight *flight);
+void automaton_fly(automaton *c, const automaton_flight *flight);
 
 /** Follows an accepted step that ends at y: refreshes the forces, and measures clearances again. */
 void automaton_end_step(automaton *c, const dense_output *p, const double *y);

@@ -11,8 +11,9 @@ typedef struct domain_shares {
     int n_ranks;
     const int32_t *owner;           /* [n_nodes] the rank of each node */
     const unsigned char *is_common; /* [n_nodes] not 0: all ranks integrate it; NULL: none is */
-    int n_rings;                    /* of ghosts; 0: one */
-    dem_index most_ghosts;          /* of all ranks together: where several rings have more there is one ring */
+    int n_rings;                    /* of ghosts, at most; 0: one */
+    int least_rings;                /* where fewer have a place there is one */
+    dem_index most_ghosts;          /* of all ranks together, in as many rings as have no more */
 } domain_shares;
 
 /** Whether a rank integrates node i of the lattice always. */

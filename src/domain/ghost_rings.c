@@ -75,23 +75,27 @@ static dem_status add_ring(ghost_rings *g, const dem_lattice *l, const domain_sh
     return DEM_OK;
 }
 
-static void keep_first(ghost_rings *g, dem_index n_nodes)
+static void keep(ghost_rings *g, int n_rings, dem_index n_nodes)
 {
     dem_index kept = 0;
     for (dem_index k = 0; k < g->n; k++)
-        if (g->list[k].ring == 1) g->list[kept++] = g->list[k];
+        if (g->list[k].ring <= n_rings) g->list[kept++] = g->list[k];
     g->n = kept;
-    g->n_rings = 1;
+    g->n_rings = n_rings;
     sort(g, n_nodes);
 }
 
 dem_status ghost_rings_find(ghost_rings *out, const dem_lattice *whole, const domain_shares *shares)
 {
-    *out = (ghost_rings){.n_rings = shares->n_rings > 1 ? shares->n_rings : 1};
+    *out = (ghost_rings){.n_rings = 1};
     out->row = calloc((size_t)whole->n_nodes + 1, sizeof *out->row);
     CHECK_MEMORY(out->row);
-    for (int ring = 1; ring <= out->n_rings; ring++) TRY(add_ring(out, whole, shares, ring));
-    if (out->n_rings > 1 && out->n > shares->most_ghosts) keep_first(out, whole->n_nodes);
+    TRY(add_ring(out, whole, shares, 1));
+    while (out->n_rings < shares->n_rings && out->n <= shares->most_ghosts)
+        TRY(add_ring(out, whole, shares, ++out->n_rings));
+    if (out->n_rings == 1 || out->n <= shares->most_ghosts) return DEM_OK;
+    const int fit = out->n_rings - 1;
+    keep(out, fit >= shares->least_rings ? fit : 1, whole->n_nodes);
     return DEM_OK;
 }
 

@@ -133,20 +133,33 @@ static bool may_have_rings(const dem_lattice *l)
     return l->viscosity == NULL && !breakable_lattice(l);
 }
 
-/* Further rings are integrated on several ranks: they must not be many beside the nodes that there are. With less nodes
- * a rank's state is in the second cache, and stages need no wave: there exchanges take no longer than the rings do. */
-static domain_shares shares_of(const ranks *r, const dem_model *whole, const domain_model_shares *s,
+static domain_shares shares_of(const ranks *r, const dem_model *whole, const domain_model_shares *s, ring_use use,
                                const unsigned char *is_common)
 {
-    enum { STEP_RINGS = 3, PART = 8, LEAST_NODES = 12000 }; /* the rings of a step of Fehlberg's pair; of a rank */
     const dem_index n = whole->lattice.n_nodes;
     domain_shares shares = {
         .n_ranks = r->size, .owner = s->owner, .is_common = is_common, .n_rings = s->n_rings, .most_ghosts = INT64_MAX};
     if (s->n_rings > 0) return shares;
-    const int useful = s->useful_rings > 0 ? s->useful_rings : STEP_RINGS;
-    shares.n_rings = n >= (dem_index)LEAST_NODES * r->size && may_have_rings(&whole->lattice) ? useful : 1;
-    shares.most_ghosts = n / PART;
+    shares.n_rings = n >= use.least_nodes * r->size && may_have_rings(&whole->lattice) ? use.most : 1;
+    shares.least_rings = use.least;
+    shares.most_ghosts = n / use.part;
     return shares;
+}
+
+/* Where no use is known there are rings for steps of Verlet's method, so few that they are no burden to Fehlberg's
+ * pair; else those that it has a use for. */
+static dem_status find_rings(whole_lattice *w, const ranks *r, const domain_model_shares *s)
+{
+    enum { PAIR_RINGS = 3, LEAST_STEPS = 4, MOST_STEPS = 8 };
+    const ring_use both[] = {ring_use_of_steps(LEAST_STEPS, MOST_STEPS), ring_use_of_stages(PAIR_RINGS)};
+    const ring_use *uses = s->use.most > 0 ? &s->use : both;
+    const int n = s->use.most > 0 ? 1 : 2;
+    for (int k = 0; k < n && w->rings.n_rings <= 1; k++) {
+        ghost_rings_free(&w->rings);
+        w->shares = shares_of(r, w->model, s, uses[k], w->is_common);
+        TRY(ghost_rings_find(&w->rings, &w->model->lattice, &w->shares));
+    }
+    return DEM_OK;
 }
 
 static dem_status open_whole(whole_lattice *w, const ranks *r, const dem_model *model,
@@ -157,8 +170,7 @@ static dem_status open_whole(whole_lattice *w, const ranks *r, const dem_model *
     w->is_common = lattice_zeros(model->lattice.n_nodes, sizeof *w->is_common);
     CHECK_MEMORY(w->is_common);
     TRY(find_common(model, shares->touching ? &w->bodies.boundary : NULL, w->is_common));
-    w->shares = shares_of(r, model, shares, w->is_common);
-    return ghost_rings_find(&w->rings, &model->lattice, &w->shares);
+    return find_rings(w, r, shares);
 }
 
 /* ---- what is cut ---- */

@@ -4,14 +4,15 @@
 #ifndef DEM_MODEL_DOMAIN_MODEL_H
 #define DEM_MODEL_DOMAIN_MODEL_H
 
+#include "domain/ring_use.h"
 #include "model/model.h"
 
 /** How a model is shared out, the same on all ranks. */
 typedef struct domain_model_shares {
     const int32_t *owner; /* [n_nodes] the rank of each node */
     bool touching;        /* whether bodies may touch each other, or themselves: all ranks have their surfaces then */
-    int useful_rings;     /* of ghosts, of which steps have a use; 0: not known, as many as Fehlberg's pair has */
-    int n_rings;          /* of ghosts; 0: the useful ones if they pay, else one */
+    ring_use use;         /* of rings of ghosts; of 0 rings: not known */
+    int n_rings;          /* of ghosts; 0: as many as there is a use for */
 } domain_model_shares;
 
 /** Cuts the model of a rank from one of the whole lattice, which may be destroyed afterwards. Own nodes have the

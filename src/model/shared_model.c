@@ -88,9 +88,19 @@ static bool may_touch(const dem_model *whole, dem_private_touching touching)
     return touching == DEM_PRIVATE_TOUCHING_SOME;
 }
 
+/* Whether all go by options that agree in what the model is made for. */
+static dem_status check_use(const ranks *r, const domain_model_shares *s)
+{
+    const double use[] = {s->use.most, s->use.least, (double)s->use.least_nodes, s->use.part, s->touching};
+    CHECK(reduce_alike(r, random_hash(1, use, sizeof use)), DEM_ERROR_ARGUMENT,
+          "the %d ranks share a model for options that differ", r->size);
+    return DEM_OK;
+}
+
 static dem_status share(dem_model **out, const ranks *r, const dem_model *whole, const domain_model_shares *shares)
 {
     TRY(check_same(r, whole));
+    TRY(check_use(r, shares));
     TRY(domain_model_create(out, r, whole, shares));
     (*out)->ends_ranks = r->end != NULL;
     return DEM_OK;
@@ -103,9 +113,8 @@ dem_status dem_private_share_model(dem_model **out, const dem_private_whole *who
     dem_status status = reduce_status(r, prepare(&compiled, &owner, whole, r->size), 0.0);
     if (status == DEM_OK)
         status = share(out, r, compiled,
-                       &(domain_model_shares){.owner = owner,
-                                              .touching = may_touch(compiled, whole->touching),
-                                              .useful_rings = whole->useful_rings});
+                       &(domain_model_shares){
+                           .owner = owner, .touching = may_touch(compiled, whole->touching), .use = whole->use});
     dem_model_destroy(compiled);
     free(owner);
     return status;
@@ -117,7 +126,7 @@ dem_status shared_model_distribute(dem_model **out, const dem_model *whole, cons
     int32_t *owner = NULL;
     dem_status status = r->rank == 0 ? find_owners(&owner, &whole->lattice, about->weights, r->size) : DEM_OK;
     const domain_model_shares shares = {
-        .owner = owner, .touching = about->touching == DEM_PRIVATE_TOUCHING_SOME, .useful_rings = about->useful_rings};
+        .owner = owner, .touching = about->touching == DEM_PRIVATE_TOUCHING_SOME, .use = about->use};
     status = reduce_status(r, status, 0.0);
     if (status == DEM_OK)
         status = domain_model_distribute(out, r, whole, &shares, about->obstacles, about->n_obstacles);

@@ -4,6 +4,7 @@
 #ifndef DEM_MODEL_SHARED_MODEL_H
 #define DEM_MODEL_SHARED_MODEL_H
 
+#include "domain/ring_use.h"
 #include "model/model.h"
 
 /** Whether bodies touch each other, or themselves, in simulations of a model: all ranks have their surfaces then. */
@@ -22,7 +23,7 @@ typedef struct dem_private_whole {
     dem_index n_obstacles;
     dem_private_touching touching;
     const double *weights; /* [nodes] >= 0, what they weigh in the partition; NULL: all the same */
-    int useful_rings;      /* of ghosts, of which steps have a use; 0: not known */
+    ring_use use;          /* of rings of ghosts; of 0 rings: not known */
 } dem_private_whole;
 
 /** Shares the nodes out among ranks, each of which gets the model of its part. Collective: whatever fails on one rank

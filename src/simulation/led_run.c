@@ -16,8 +16,8 @@
 #include "simulation/rank_shares.h"
 #include "simulation/shared_breaks.h"
 #include "simulation/shared_problem.h"
+#include "simulation/shared_use.h"
 #include "simulation/step_parts.h"
-#include "time/butcher.h"
 
 /* A frame of one of the whole's observers. */
 typedef struct frame_relay {
@@ -73,21 +73,10 @@ static void drop(led_run *l)
     l->is_observed = false;
 }
 
-/* One where no step integrates ghosts: as the method does not, or something acts that their owners alone know. */
-static int useful_rings(const dem_options *o)
-{
-    const int rings = butcher_rings_of(o->method);
-    return rings > 0 && o->n_boundaries == 0 ? rings : 1;
-}
-
 static dem_status create_part(led_run *l, const shared_problem *p, bool resumes, const dem_checkpoint *checkpoint)
 {
-    const bool touching = p->options.bodies != DEM_BODIES_NONE;
-    const dem_private_whole about = {.obstacles = p->obstacles,
-                                     .n_obstacles = p->n_obstacles,
-                                     .touching = touching ? DEM_PRIVATE_TOUCHING_SOME : DEM_PRIVATE_TOUCHING_NONE,
-                                     .weights = l->balance.weights,
-                                     .useful_rings = useful_rings(&p->options)};
+    dem_private_whole about = {.obstacles = p->obstacles, .n_obstacles = p->n_obstacles, .weights = l->balance.weights};
+    TRY(dem_private_use_shared(&about, &p->options));
     TRY(shared_model_distribute(&l->model, l->whole != NULL ? l->whole->model : NULL, &about, &l->ranks));
     if (resumes)
         TRY(dem_simulation_resume(&l->part, l->model, &p->options, checkpoint));
@@ -150,11 +139,11 @@ static dem_status release(led_run *l, dem_status status)
     return status;
 }
 
-/* Where bodies touch is not asked: observers that want to see it see all steps. */
+/* Where bodies touch is not asked: observers that want to see it see all steps but those taken at once. */
 static dem_status lead_step(void *context, const dem_simulation *part)
 {
     led_run *l = hold(context);
-    const accepted_step step = {run_count_steps(part), part->t, true};
+    const accepted_step step = {run_count_steps(part), part->t, !part->unseen.is_last};
     return release(l, observers_step(&l->whole->observers, l->whole, &step));
 }
 

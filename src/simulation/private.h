@@ -49,7 +49,9 @@ typedef struct run_unseen {
     step_wave *wave;     /* NULL: there are none */
     dem_index n_surface; /* nodes of the surface that may touch obstacles; */
     dem_index *surface;  /* [n_surface] ascending */
-    int wait, last_wait; /* steps until they are tried again, and how many those were after the last failure */
+    int wait, last_wait; /* steps until they are tried again, and how many those were after the last failure; */
+    int last_pause;      /* and how many they are after ranks have not agreed on any */
+    bool is_last;        /* whether the last steps were of this kind: nothing has touched in them */
 } run_unseen;
 
 /** Flags say where a run is:

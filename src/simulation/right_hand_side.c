@@ -85,6 +85,14 @@ static void fill_ghosts(double *y, void *context)
     halo_exchange(&s->halo, arrays, forces_couple_velocities(&s->forces) || s->shared.once_a_step ? 2 : 1);
 }
 
+/* Ghosts are integrated through several steps from the accelerations at their start. */
+static void fill_start(double *y, double *f, void *context)
+{
+    dem_simulation *s = context;
+    const dem_index v = state_velocities(&s->layout);
+    halo_exchange(&s->halo, (double *const[]){y, y + v, f + v}, 3);
+}
+
 /* Whether there are enough rings of ghosts for a step of the method, and nothing acts on them that is known to their
  * owners alone, or that takes more rings, as the velocities of neighbours do. What contacts do concerns common nodes
  * only, and the rings are about these, too. */
@@ -126,6 +134,7 @@ ode_domain right_hand_side_domain(const dem_simulation *s)
                         .is_own = model->domain->is_own,
                         .once_a_step = can_integrate_ghosts(s),
                         .fill_ghosts = fill_ghosts,
+                        .fill_start = fill_start,
                         .take_part = take_part,
                         .name_failure = name_failure,
                         .wants_stop = wants_stop,
@@ -175,7 +184,7 @@ static int take_fused_step(const ode_fused_step *step, void *context)
 }
 
 /* Several of them, which unseen_steps_take() asks for where they may well be possible. Of the quadratures only the time
- * goes on. */
+ * goes on. Steps hold on all ranks, or are thrown away on all. */
 static bool take_fused_steps(const ode_fused_step *steps, int n, void *context)
 {
     dem_simulation *s = context;
@@ -190,8 +199,11 @@ static bool take_fused_steps(const ode_fused_step *steps, int n, void *context)
         t[k + 1] = p->t1;
     }
     const body_flight flight = {.n = n, .t = t, .sum = wave.sum, .x = steps[n - 1].y1};
-    if (!step_wave_run(s->unseen.wave, &s->forces, &wave) || !body_contact_can_fly(s, &flight)) return false;
-    if (!automaton_fly(&s->automaton, &(automaton_flight){n, t, wave.square})) return false;
+    const automaton_flight of_surface = {n, t, wave.square};
+    const bool holds = step_wave_run(s->unseen.wave, &s->forces, &wave) && body_contact_can_fly(s, &flight) &&
+                       automaton_can_fly(&s->automaton, &of_surface);
+    if (reduce_any(s->model->ranks, !holds)) return false;
+    automaton_fly(&s->automaton, &of_surface);
     body_contact_fly(s, &flight);
     for (int k = 0; k < n; k++) begin_rates(&s->layout, steps[k].f1 + v);
     return true;

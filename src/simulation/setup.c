@@ -133,12 +133,12 @@ static dem_status check_shared(const dem_simulation *s)
     return DEM_OK;
 }
 
-/* Positions and velocities are exchanged. */
+/* Positions, velocities and accelerations are exchanged. */
 static dem_status set_up_domain(dem_simulation *s)
 {
     const dem_model *model = s->model;
     s->shared = right_hand_side_domain(s);
-    return halo_create(&s->halo, model->ranks, model->domain, s->layout.dim, 2);
+    return halo_create(&s->halo, model->ranks, model->domain, s->layout.dim, 3);
 }
 
 static dem_status set_up(dem_simulation *s)

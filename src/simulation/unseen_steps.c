@@ -13,9 +13,11 @@
 
 enum {
     LEAST_NODES = 250000, /* of fewer the third cache has all arrays of a step */
-    FEWEST = 3,           /* steps that are worth it, and more than one */
+    FEWEST = 3,           /* steps that are worth it, and more than one; */
+    FEWEST_RINGS = 4,     /* of ghosts likewise */
     SHORT_WAIT = 16,      /* steps, after the first failure in a row, */
-    LONG_WAIT = 1024      /* and after many */
+    LONG_WAIT = 1024,     /* and after many */
+    LONG_PAUSE = 63       /* steps until ranks ask each other again, after having done so in vain several times */
 };
 
 static dem_status list_surface(dem_simulation *s)
@@ -30,17 +32,41 @@ static dem_status list_surface(dem_simulation *s)
     return DEM_OK;
 }
 
+ring_use unseen_steps_ring_use(const dem_options *o)
+{
+    const bool some = o->method == DEM_METHOD_VERLET && o->contact == DEM_CONTACT_LOCAL;
+    return some ? ring_use_of_steps(FEWEST_RINGS, ODE_FUSED_STEPS) : ring_use_none();
+}
+
+/* Ranks integrate ghosts, a ring less in each step. */
+static int most_at_once(const dem_simulation *s)
+{
+    const int rings = run_is_shared(s) ? s->model->domain->n_rings : ODE_FUSED_STEPS;
+    return rings < ODE_FUSED_STEPS ? rings : ODE_FUSED_STEPS;
+}
+
+/* Fewer rings than pay are those of Fehlberg's pair. */
+static bool is_large(const dem_simulation *s)
+{
+    return run_is_shared(s) ? s->model->domain->n_rings >= FEWEST_RINGS : s->layout.n_nodes >= LEAST_NODES;
+}
+
 /* With `exact` the whole body stops at roots, which are found among all candidates that are near. */
-dem_status unseen_steps_create(dem_simulation *s)
+static bool may_be_unseen(const dem_simulation *s)
 {
     const bool fixed = s->options.method == DEM_METHOD_VERLET && s->options.fixed_step > 0.0;
-    const bool alone = s->model->domain == NULL && s->rigid == NULL && s->external == NULL && s->boundaries.n == 0 &&
-                       !s->model->obstacles.is_asked;
-    if (!fixed || !alone || s->layout.n_nodes < LEAST_NODES || run_may_break(s) || !run_is_local(s) ||
-        !kernel_can_fuse(&s->kernel, &s->forces))
-        return DEM_OK;
-    s->unseen.wave = step_wave_create(&s->kernel);
-    return s->unseen.wave != NULL && s->model->obstacles.n > 0 ? list_surface(s) : DEM_OK;
+    const bool alone = s->rigid == NULL && s->external == NULL && s->boundaries.n == 0 && !s->model->obstacles.is_asked;
+    return fixed && alone && is_large(s) && !run_may_break(s) && run_is_local(s) &&
+           kernel_can_fuse(&s->kernel, &s->forces);
+}
+
+/* All ranks take them, or none does. */
+dem_status unseen_steps_create(dem_simulation *s)
+{
+    run_unseen *u = &s->unseen;
+    if (may_be_unseen(s)) u->wave = step_wave_create(&s->kernel);
+    if (reduce_any(s->model->ranks, u->wave == NULL)) unseen_steps_destroy(s);
+    return u->wave != NULL && s->model->obstacles.n > 0 ? list_surface(s) : DEM_OK;
 }
 
 void unseen_steps_destroy(dem_simulation *s)
@@ -50,19 +76,45 @@ void unseen_steps_destroy(dem_simulation *s)
     s->unseen = (run_unseen){0};
 }
 
-/* How many steps end before t_end and before the next frame, up to the first whose end is seen; `most` if there are
- * more. */
-static int count_free(const dem_simulation *s, int most, double t_end)
+/* How many steps end before t_end and before the next frame; `most` if there are more. Ranks have the same. */
+static int count_to_frame(const dem_simulation *s, int most, double t_end)
 {
-    accepted_step step = {run_count_steps(s), s->t, false};
-    double due;
+    double t = s->t, due;
     for (int n = 0; n < most; n++) {
-        step.number++;
-        step.t += s->options.fixed_step;
-        if (step.t > t_end || observers_due(&s->observers, step.t, t_end, &due) >= 0) return n;
-        if (observers_step_due(&s->observers, &step)) return n + 1;
+        t += s->options.fixed_step;
+        if (t > t_end || observers_due(&s->observers, t, t_end, &due) >= 0) return n;
     }
     return most;
+}
+
+/* Observers of this rank; in a run that rank 0 leads its own ones. NULL: none. */
+static const observers *observers_of(const dem_simulation *s)
+{
+    if (!s->is_led) return &s->observers;
+    return s->whole != NULL ? &s->whole->observers : NULL;
+}
+
+/* How many of them there are up to the first whose end an observer sees. */
+static int count_to_seen(const dem_simulation *s, int most)
+{
+    const observers *those = observers_of(s);
+    accepted_step step = {run_count_steps(s), s->t, false};
+    for (int n = 0; n < most && those != NULL; n++) {
+        step.number++;
+        step.t += s->options.fixed_step;
+        if (observers_step_due(those, &step)) return n + 1;
+    }
+    return most;
+}
+
+/* How many of them touch nothing that this rank knows of. Whether its observers want the run to stop ranks ask each
+ * other at the end of a single step. */
+static int count_free(dem_simulation *s, int most)
+{
+    const int n = count_to_seen(s, most);
+    if (s->stop.status != DEM_OK || !automaton_may_fly(&s->automaton, n * s->options.fixed_step)) return 0;
+    body_contact_begin_step(s);
+    return body_contact_free_steps(s, n);
 }
 
 /* Steps are single for a while, longer after each failure in a row. */
@@ -70,6 +122,14 @@ static void wait(run_unseen *u)
 {
     const int next = u->last_wait > 0 ? 2 * u->last_wait : SHORT_WAIT;
     u->wait = u->last_wait = next < LONG_WAIT ? next : LONG_WAIT;
+}
+
+/* Ranks do not ask each other again at once. */
+static void ask_later(run_unseen *u)
+{
+    const int next = 2 * u->last_pause + 1;
+    u->wait = u->last_pause;
+    u->last_pause = next < LONG_PAUSE ? next : LONG_PAUSE;
 }
 
 static bool is_waiting(run_unseen *u)
@@ -82,19 +142,23 @@ static bool is_waiting(run_unseen *u)
 int unseen_steps_take(dem_simulation *s, int most, double t_end)
 {
     run_unseen *u = &s->unseen;
+    u->is_last = false;
     if (u->wave == NULL || s->forces.elements != NULL) return 0;
-    int n = count_free(s, most < ODE_FUSED_STEPS ? most : ODE_FUSED_STEPS, t_end);
-    if (n < FEWEST || !automaton_may_fly(&s->automaton, n * s->options.fixed_step)) return 0;
-    if (is_waiting(u)) return 0;
-    body_contact_begin_step(s);
-    n = body_contact_free_steps(s, n);
-    if (n < FEWEST) return 0;
+    int n = count_to_frame(s, most < most_at_once(s) ? most : most_at_once(s), t_end);
+    if (n < FEWEST || is_waiting(u)) return 0;
+    n = (int)reduce_min(s->model->ranks, count_free(s, n));
+    if (n < FEWEST) {
+        if (run_is_shared(s)) ask_later(u);
+        return 0;
+    }
+    u->last_pause = 0;
     double ends[ODE_FUSED_STEPS];
     if (!integrator_take_unseen(&s->integrator, n, ends)) {
         wait(u);
         return 0;
     }
     u->last_wait = 0;
+    u->is_last = true;
     s->y = integrator_state(&s->integrator);
     s->step = ends[n - 1] - ends[n - 2];
     s->t = ends[n - 1];

@@ -4,7 +4,11 @@
 #ifndef DEM_SIMULATION_UNSEEN_STEPS_H
 #define DEM_SIMULATION_UNSEEN_STEPS_H
 
+#include "domain/ring_use.h"
 #include "simulation/private.h"
+
+/** Of rings of ghosts, in simulations with such options. */
+ring_use unseen_steps_ring_use(const dem_options *o);
 
 /** For a simulation whose kernel and contacts are set up.  \return DEM_ERROR_MEMORY */
 dem_status unseen_steps_create(dem_simulation *s);

@@ -57,6 +57,13 @@ void attempt_tell(attempt *a, attempt_end *end);
 /** Sets the message of a failure on all ranks, that of a process alone. Collective. */
 void attempt_name_failure(const attempt *a, const attempt_end *end);
 
+/** Notes that at the end of steps taken at once nothing is stiffer than at rest, on all ranks. */
+static inline void attempt_end_at_rest(attempt *a)
+{
+    a->stiffening = 1.0;
+    a->knows_stiffening = true;
+}
+
 /** Length of a fixed step from y, s: halved until its product with the highest frequency is no larger than about the
  *  rest shape. Collective.
  *  \param is_known  as for `stiffening` of the problem */

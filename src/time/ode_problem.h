@@ -45,6 +45,8 @@ typedef struct ode_domain {
      *  before those where steps begin and end, and once more at the end of a step that is written anew, as the scale
      *  of its error has changed; a fused step does so itself. */
     void (*fill_ghosts)(double *y, void *context);
+    /** Puts into y and its derivative f what other ranks have of them, before several steps are taken at once. */
+    void (*fill_start)(double *y, double *f, void *context);
     /** Takes part, with nothing of its own, in what other ranks sum in a derivative that this rank leaves out after a
      *  failure. */
     void (*take_part)(void *context);

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "base/aligned.h"
+#include "base/reduce.h"
 #include "base/status.h"
 #include "time/attempt.h"
 
@@ -329,6 +330,7 @@ static bool knows_start(verlet_integrator *V)
 {
     if (V->has_f0) return true;
     V->has_f0 = evaluate(V, V->t, V->y0, V->f0) == 0;
+    if (V->problem.domain != NULL) V->has_f0 = !reduce_any(V->problem.domain->ranks, V->attempt.failed != ATTEMPT_NONE);
     V->counts.evaluations -= !V->has_f0;
     return V->has_f0;
 }
@@ -361,6 +363,7 @@ static bool verlet_integrator_take_unseen(void *self, int n, double *ends)
     attempt_begin(&V->attempt, p);
     if (!knows_start(V) || attempt_fixed_step(&V->attempt, V->y0, !V->resumed) < p->fixed_step) return false;
     lay_out(V, steps, n);
+    if (p->domain != NULL) p->domain->fill_start(V->y0, V->f0, p->context);
     if (!p->fused_steps(steps, n, p->context)) return false;
     for (int k = 0; k < n; k++) {
         drift_stretch(p, &steps[k], quadratures_of(&p->layout));
@@ -372,6 +375,7 @@ static bool verlet_integrator_take_unseen(void *self, int n, double *ends)
     V->t1 = ends[n - 1];
     V->at_end = true;
     V->resumed = false;
+    if (p->domain != NULL) attempt_end_at_rest(&V->attempt);
     go_on(V);
     return true;
 }

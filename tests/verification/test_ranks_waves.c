@@ -2,7 +2,8 @@
 /* Steps of Fehlberg's pair by ranks that are threads, each of which has so many nodes that its stages are evaluated
  * together, band by band: one sweep over all nodes of a rank for each attempt, at the end of the step. Motions have the
  * bits of one process where steps are accepted and rejected, where bodies hit obstacles and each other, so that some
- * stages are evaluated one by one after all, and where a force is not finite. */
+ * stages are evaluated one by one after all, and where a force is not finite. And steps of Verlet's method, of which
+ * ranks take as many at once as they have rings of ghosts, where one process takes each by itself. */
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,7 +16,7 @@
 #include "model/domain_model.h"
 #include "simulation/private.h"
 
-enum { MOST_RANKS = 3, STEP_RINGS = 3, TEXT = 256 };
+enum { MOST_RANKS = 3, MANY_RANKS = 7, STEP_RINGS = 3, TEXT = 256 };
 
 static const double spacing = 2e-3;
 
@@ -36,7 +37,8 @@ static double count_sweep(const sweep *s, dem_index first, dem_index last, doubl
 typedef struct scene {
     dem_model *model;
     dem_options options;
-    double t_end; /* s */
+    double t_end;          /* s */
+    dem_observer watch[2]; /* by the first and the last rank, if they have functions */
 } scene;
 
 static dem_lattice make_plate(double width, double height)
@@ -73,9 +75,9 @@ static scene scene_of(const dem_lattice *l, const dem_obstacle *obstacles, int n
 
 typedef struct outcome {
     dem_counts counts;
-    double t, step; /* s */
-    double *x, *v;  /* [n_nodes][2] of the whole */
-    int exchanges;  /* of one rank */
+    double t, step;            /* s */
+    double *x, *v;             /* [n_nodes][2] of the whole */
+    rank_threads_counts calls; /* of one rank */
     dem_status status;
     char failure[TEXT]; /* empty: none */
 } outcome;
@@ -106,14 +108,15 @@ static void look(const dem_simulation *s, outcome *o)
     }
 }
 
-static void run(const dem_model *model, const scene *c, outcome *o)
+static void run(const dem_model *model, const scene *c, const dem_observer *watch, outcome *o)
 {
     dem_simulation *s = NULL;
     o->counts.struct_size = sizeof o->counts;
     o->status = dem_simulation_create(&s, model, &c->options);
     if (o->status == DEM_OK) {
         s->kernel.sweep = count_sweep;
-        o->status = dem_simulation_advance(s, c->t_end);
+        if (watch != NULL) o->status = dem_simulation_observe(s, watch);
+        if (o->status == DEM_OK) o->status = dem_simulation_advance(s, c->t_end);
     }
     if (o->status != DEM_OK) (void)snprintf(o->failure, TEXT, "%s", dem_status_message());
     if (s != NULL) look(s, o);
@@ -126,6 +129,13 @@ typedef struct shared_run {
     outcome *outcomes; /* [ranks] whose x and v are one */
 } shared_run;
 
+/* Observers need not be the same on all ranks. */
+static const dem_observer *watch_of(const scene *s, const ranks *r)
+{
+    const dem_observer *o = &s->watch[r->rank > 0];
+    return (r->rank == 0 || r->rank == r->size - 1) && o->struct_size > 0 ? o : NULL;
+}
+
 static void run_rank(const ranks *r, void *context)
 {
     shared_run *c = context;
@@ -133,10 +143,10 @@ static void run_rank(const ranks *r, void *context)
     dem_model *model = NULL;
     o->status = domain_model_create(&model, r, c->scene->model, &c->shares);
     if (o->status == DEM_OK)
-        run(model, c->scene, o);
+        run(model, c->scene, watch_of(c->scene, r), o);
     else
         (void)snprintf(o->failure, TEXT, "%s", dem_status_message());
-    o->exchanges = rank_threads_count(r).exchanges;
+    o->calls = rank_threads_count(r);
     dem_model_destroy(model);
 }
 
@@ -150,20 +160,19 @@ static void assert_same(const outcome *one, const outcome *whole, dem_index n)
     assert_memory_equal(one->v, whole->v, 2 * (size_t)n * sizeof(double));
 }
 
-static void share(const scene *s, int n_ranks, domain_model_shares shares, const outcome *whole)
+/* \return the calls of a rank */
+static rank_threads_counts share(const scene *s, int n_ranks, domain_model_shares shares, const outcome *whole)
 {
     const dem_index n = dem_model_lattice(s->model)->n_nodes;
-    outcome all[MOST_RANKS];
+    outcome all[MANY_RANKS];
     all[0] = make_outcome(n);
     for (int k = 1; k < n_ranks; k++) all[k] = all[0];
     atomic_store(&whole_sweeps, 0);
     atomic_store(&bands, 0);
     rank_threads_run(n_ranks, run_rank, &(shared_run){s, shares, all});
     for (int k = 0; k < n_ranks; k++) assert_same(&all[k], whole, n);
-    const int attempts = (int)(whole->counts.steps + whole->counts.rejected);
-    if (whole->status == DEM_OK && whole->counts.events == 0)
-        assert_in_range(all[0].exchanges, attempts + 1, attempts + 1 + (int)whole->counts.rejected);
     free_outcome(&all[0]);
+    return all[0].calls;
 }
 
 static outcome run_alone(const scene *s)
@@ -173,7 +182,7 @@ static outcome run_alone(const scene *s)
     assert_ok(dem_simulation_create(&first, s->model, &s->options));
     sweep_of_kernel = first->kernel.sweep;
     dem_simulation_destroy(first);
-    run(s->model, s, &whole);
+    run(s->model, s, NULL, &whole);
     return whole;
 }
 
@@ -188,10 +197,14 @@ static void check(const scene *s, int n_ranks, const outcome *whole, int n_stage
     for (int tiles = 0; tiles < 2; tiles++) {
         assert_ok(partition_bisect(l, n_ranks, owner));
         if (tiles) scatter(l, 50.3 * spacing, n_ranks, owner);
-        share(s, n_ranks,
-              (domain_model_shares){
-                  .owner = owner, .touching = s->options.bodies != DEM_BODIES_NONE, .n_rings = STEP_RINGS},
-              whole);
+        const int exchanges =
+            share(s, n_ranks,
+                  (domain_model_shares){
+                      .owner = owner, .touching = s->options.bodies != DEM_BODIES_NONE, .n_rings = STEP_RINGS},
+                  whole)
+                .exchanges;
+        if (whole->counts.events == 0)
+            assert_in_range(exchanges, attempts + 1, attempts + 1 + (int)whole->counts.rejected);
         const int swept = atomic_load(&whole_sweeps);
         assert_in_range(swept, n_ranks * (attempts + 1) + (n_stages > 0), n_ranks * (attempts + 1 + n_stages));
         assert_true(atomic_load(&bands) > n_ranks * 24);
@@ -241,7 +254,7 @@ TEST(a_stage_that_is_not_finite_fails_alike)
         assert_int_equal(whole.status, DEM_ERROR_INTEGRATOR);
         CLEANUP(free_memory) int32_t *owner = malloc((size_t)l.n_nodes * sizeof *owner);
         assert_ok(partition_bisect(&l, 2, owner));
-        share(&s, 2, (domain_model_shares){.owner = owner, .n_rings = STEP_RINGS}, &whole);
+        (void)share(&s, 2, (domain_model_shares){.owner = owner, .n_rings = STEP_RINGS}, &whole);
         free_outcome(&whole);
         dem_model_destroy(s.model);
     }
@@ -281,6 +294,137 @@ TEST(bodies_that_run_into_each_other_do_so_alike)
     outcome whole = run_alone(&s);
     assert_string_equal(whole.failure, "");
     check(&s, 2, &whole, 5 * (int)(whole.counts.steps + whole.counts.rejected) - 10);
+    free_outcome(&whole);
+    dem_model_destroy(s.model);
+}
+
+/* ---- Verlet's method ---- */
+
+static scene verlet_of(const dem_lattice *l, const dem_obstacle *obstacles, int n, double steps)
+{
+    scene s = scene_of(l, obstacles, n, 0.0);
+    dem_simulation *first = NULL;
+    s.options.method = DEM_METHOD_VERLET;
+    assert_ok(dem_simulation_create(&first, s.model, &s.options));
+    s.t_end = steps * first->options.fixed_step;
+    dem_simulation_destroy(first);
+    return s;
+}
+
+/* \param most_calls  exchanges of compact domains, each with a reduction before and one behind it, or one behind it and
+ *  none before; further reductions are those of a simulation's creation, and the last step's */
+static void check_verlet(const scene *s, int n_ranks, int n_rings, const outcome *whole, int most_calls)
+{
+    const dem_lattice *l = dem_model_lattice(s->model);
+    CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
+    for (int tiles = 0; tiles < 2; tiles++) {
+        assert_ok(partition_bisect(l, n_ranks, owner));
+        if (tiles) scatter(l, 50.3 * spacing, n_ranks, owner);
+        const rank_threads_counts calls = share(
+            s, n_ranks,
+            (domain_model_shares){.owner = owner, .touching = s->options.bodies != DEM_BODIES_NONE, .n_rings = n_rings},
+            whole);
+        if (!tiles) assert_in_range(calls.exchanges, 1, most_calls);
+        if (!tiles) assert_in_range(calls.reductions, 1, 2 * most_calls + 40);
+    }
+}
+
+/* All but the last step, in which the end of the run is: as many at once as there are rings, up to the looks after
+ * every 16th step; and an exchange for the first state. */
+TEST(ranks_take_steps_at_once)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = make_plate(0.5, 0.44);
+    set_off(&l, 2.0);
+    scene s = verlet_of(&l, NULL, 0, 80.5);
+    outcome whole = run_alone(&s);
+    assert_string_equal(whole.failure, "");
+    assert_int_equal(whole.counts.steps, 81);
+    check_verlet(&s, 2, 16, &whole, 1 + 5 + 1);
+    check_verlet(&s, 3, 5, &whole, 1 + 5 * 4 + 1);
+    check_verlet(&s, 4, 8, &whole, 1 + 5 * 2 + 1);
+    check_verlet(&s, 7, 5, &whole, 1 + 5 * 4 + 1);
+    check_verlet(&s, 2, STEP_RINGS, &whole, 1 + 81);
+    s.options.threads = 2;
+    s.options.thread_nodes = 1;
+    check_verlet(&s, 2, 16, &whole, 1 + 5 + 1);
+    free_outcome(&whole);
+    dem_model_destroy(s.model);
+}
+
+/* Some 40 steps above a floor, and then on it, and past a checkpoint. */
+TEST(steps_at_once_and_events_follow_each_other_alike)
+{
+    static const double floor_points[] = {-2.0, 0.0, 2.0, 0.0};
+    CLEANUP(dem_lattice_free) dem_lattice l = make_plate(0.3, 0.28);
+    const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 0.9);
+    set_off(&l, 0.5);
+    for (dem_index i = 0; i < l.n_nodes; i++) l.velocity[2 * i + 1] -= 4.0;
+    dem_lattice_move(&l, 0.0, (double[]){0.0, 3e-4 - support_bottom(&l)});
+    scene s = verlet_of(&l, &floor, 1, 100.5);
+    s.options.checkpoint_steps = 23;
+    outcome whole = run_alone(&s);
+    assert_string_equal(whole.failure, "");
+    assert_true(whole.counts.impacts > 3);
+    for (int n_ranks = 2; n_ranks <= MOST_RANKS; n_ranks++) check_verlet(&s, n_ranks, 6, &whole, 300);
+    free_outcome(&whole);
+    dem_model_destroy(s.model);
+}
+
+TEST(bodies_run_into_each_other_after_steps_at_once)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = make_plate(0.16, 0.28), other = dem_lattice_empty();
+    assert_ok(dem_lattice_append(&other, &l));
+    dem_lattice_move(&other, 0.0, (double[]){0.1635, 0.01});
+    assert_ok(dem_lattice_launch(&l, (double[]){8.0, 1.0}));
+    assert_ok(dem_lattice_launch(&other, (double[]){-2.0, 1.0}));
+    assert_ok(dem_lattice_append(&l, &other));
+    scene s = verlet_of(&l, NULL, 0, 80.5);
+    s.options.bodies = DEM_BODIES_OTHERS;
+    outcome whole = run_alone(&s);
+    assert_string_equal(whole.failure, "");
+    check_verlet(&s, 2, 6, &whole, 81);
+    free_outcome(&whole);
+    dem_model_destroy(s.model);
+}
+
+/* Steps are thrown away by all ranks where the guard acts on one, and taken one by one and shorter, and where something
+ * is not finite. */
+TEST(steps_that_one_rank_cannot_take_are_single_on_all)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = make_plate(0.3, 0.28);
+    set_off(&l, 2.0);
+    for (int k = 0; k < 2; k++) {
+        l.velocity[2 * 20] = k == 0 ? 400.0 : 1e200;
+        scene s = verlet_of(&l, NULL, 0, 60.5);
+        outcome whole = run_alone(&s);
+        assert_int_equal(whole.status, k == 0 ? DEM_OK : DEM_ERROR_INTEGRATOR);
+        check_verlet(&s, 2, 8, &whole, 1000);
+        free_outcome(&whole);
+        dem_model_destroy(s.model);
+    }
+}
+
+static dem_status count(void *context, const dem_simulation *simulation)
+{
+    (void)simulation;
+    ++*(int *)context;
+    return DEM_OK;
+}
+
+/* The ends that one rank sees are the ends of what all take at once. */
+TEST(ranks_need_not_see_the_same_steps)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = make_plate(0.3, 0.28);
+    set_off(&l, 2.0);
+    scene s = verlet_of(&l, NULL, 0, 80.5);
+    outcome whole = run_alone(&s);
+    int seen[2] = {0};
+    for (int k = 0; k < 2; k++)
+        s.watch[k] = (dem_observer){
+            .struct_size = sizeof(dem_observer), .step = count, .step_every = k == 0 ? 9 : 25, .context = &seen[k]};
+    check_verlet(&s, 2, 16, &whole, 40);
+    assert_int_equal(seen[0], 2 * (80 / 9 + 1));
+    assert_int_equal(seen[1], 2 * (80 / 25 + 1));
     free_outcome(&whole);
     dem_model_destroy(s.model);
 }

@@ -248,9 +248,11 @@ TEST(a_flight_is_followed_unless_something_comes_near)
     assert_false(automaton_may_fly(&s.c, 0.245)); /* 0.98 m, and 0.025 */
     const double t[3] = {0.0, 0.01, 0.02}, near[2] = {4.0, 31.0 * 31.0}, slow[2] = {4.0, 9.0};
     const broad_phase before = s.c.broad_phase;
-    assert_false(automaton_fly(&s.c, &(automaton_flight){2, t, near})); /* 0.04 m and 0.62, and 0.39 */
+    assert_false(automaton_can_fly(&s.c, &(automaton_flight){2, t, near})); /* 0.04 m and 0.62, and 0.39 */
     assert_memory_equal(&s.c.broad_phase, &before, sizeof before);
-    assert_true(automaton_fly(&s.c, &(automaton_flight){2, t, slow}));
+    assert_true(automaton_can_fly(&s.c, &(automaton_flight){2, t, slow}));
+    assert_memory_equal(&s.c.broad_phase, &before, sizeof before);
+    automaton_fly(&s.c, &(automaton_flight){2, t, slow});
     assert_close(s.c.broad_phase.travelled, 0.04 + 0.06, 1e-15);
     assert_close(s.c.broad_phase.speed, 3.0, 0.0);
     assert_close(s.c.way, 0.06, 1e-15);
@@ -258,5 +260,5 @@ TEST(a_flight_is_followed_unless_something_comes_near)
     scene_put(&s, 0, -3.0, 0.01, 0.0, -2.0);
     assert_ok(automaton_restore(&s.c, 0.0, s.y));
     assert_false(automaton_may_fly(&s.c, 0.0));
-    assert_false(automaton_fly(&s.c, &(automaton_flight){2, t, slow}));
+    assert_false(automaton_can_fly(&s.c, &(automaton_flight){2, t, slow}));
 }

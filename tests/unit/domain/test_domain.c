@@ -73,7 +73,11 @@ static void assert_lists_agree(const domain *from, int sender, const domain *to,
 static void check_rings(const dem_lattice *l, int n_rings, const int32_t *owner, const unsigned char *is_common)
 {
     domain d[N_RANKS];
-    const domain_shares shares = {N_RANKS, owner, is_common, n_rings, l->n_nodes * N_RANKS};
+    const domain_shares shares = {.n_ranks = N_RANKS,
+                                  .owner = owner,
+                                  .is_common = is_common,
+                                  .n_rings = n_rings,
+                                  .most_ghosts = l->n_nodes * N_RANKS};
     for (int k = 0; k < N_RANKS; k++) assert_ok(domain_create(&d[k], l, &shares, k));
     for (int k = 0; k < N_RANKS; k++) {
         assert_nodes_are_right(&d[k], l, &shares, k);
@@ -149,22 +153,43 @@ TEST(corners_of_triangles_are_ghosts_without_springs)
     domain_free(&d);
 }
 
-TEST(several_rings_that_have_too_many_ghosts_are_one)
+/* Of all domains together. */
+static dem_index count_ghosts(const dem_lattice *l, const domain_shares *shares, int *n_rings)
+{
+    dem_index n = 0;
+    domain d;
+    for (int k = 0; k < N_RANKS; k++) {
+        assert_ok(domain_create(&d, l, shares, k));
+        for (dem_index i = 0; i < d.n_nodes; i++) n += d.is_ghost[i];
+        *n_rings = d.n_rings;
+        domain_free(&d);
+    }
+    return n;
+}
+
+TEST(there_are_as_many_rings_as_have_not_too_many_ghosts)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
     CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
-    dem_index n_ghosts = 0;
-    domain d;
-    for (int k = 0; k < N_RANKS; k++) {
-        assert_ok(domain_create(&d, &l, &(domain_shares){N_RANKS, owner, NULL, 3, INT64_MAX}, k));
-        for (dem_index i = 0; i < d.n_nodes; i++) n_ghosts += d.is_ghost[i];
-        domain_free(&d);
+    dem_index n_ghosts[5] = {0};
+    domain_shares shares = {.n_ranks = N_RANKS, .owner = owner, .most_ghosts = INT64_MAX};
+    int n_rings;
+    for (shares.n_rings = 1; shares.n_rings < 5; shares.n_rings++) {
+        n_ghosts[shares.n_rings] = count_ghosts(&l, &shares, &n_rings);
+        assert_int_equal(n_rings, shares.n_rings);
+        assert_true(n_ghosts[n_rings] > n_ghosts[n_rings - 1]);
     }
-    for (int enough = 0; enough < 2; enough++)
-        for (int k = 0; k < N_RANKS; k++) {
-            assert_ok(domain_create(&d, &l, &(domain_shares){N_RANKS, owner, NULL, 3, n_ghosts - 1 + enough}, k));
-            assert_int_equal(d.n_rings, enough ? 3 : 1);
-            domain_free(&d);
+    shares.n_rings = 4;
+    for (int ring = 1; ring < 5; ring++)
+        for (shares.least_rings = 0; shares.least_rings < 5; shares.least_rings++) {
+            shares.most_ghosts = n_ghosts[ring];
+            const int fit = ring >= shares.least_rings ? ring : 1;
+            assert_int_equal(count_ghosts(&l, &shares, &n_rings), n_ghosts[fit]);
+            assert_int_equal(n_rings, fit);
+            shares.most_ghosts--;
+            const int fewer = ring > 1 && ring - 1 >= shares.least_rings ? ring - 1 : 1;
+            assert_int_equal(count_ghosts(&l, &shares, &n_rings), n_ghosts[fewer]);
+            assert_int_equal(n_rings, fewer);
         }
 }
 
