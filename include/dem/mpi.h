@@ -9,7 +9,7 @@
  *  (dem_model_part()). What goes on is *collective*: all ranks make the same calls in the same order, with the same
  *  arguments, and wait for each other in them. These are
  *
- *      dem_model_create_mpi(), and dem_model_destroy() of such a model
+ *      dem_model_create_mpi(), dem_model_create_mpi_for(), and dem_model_destroy() of such models
  *      dem_simulation_create(), dem_simulation_resume(), dem_simulation_observe(), dem_simulation_advance()
  *      all that is asked of a motion: dem_simulation_state(), dem_simulation_gather(), and what follows them in
  *      dem/simulation.h, up to dem_simulation_residual()
@@ -38,11 +38,12 @@
  *  answer alike on all: dem_force and dem_motion say what they are asked. A failure of one is that of all ranks. Where
  *  there is such a function all ranks watch the same events and breaks, as each look asks it.
  *
- *  Ranks cannot share yet, and refuse: a body alone without obstacles that touches itself unless it may break
- *  (DEM_ERROR_ARGUMENT by dem_simulation_create()), as the model would have to be shared for it before options are
- *  known; what a program breaks, and a motion that it sets; trajectories, overlaps of bodies, their fragments and the
- *  energy of cracks, which are of the whole lattice at once, that no rank keeps. `mpirun dem_batch` has all but what a
- *  program breaks: there rank 0 knows the options, and has the whole besides its part.
+ *  Of a body alone without obstacles, which may not break, dem_model_create_mpi() shares no surfaces: that it touches
+ *  itself is refused (DEM_ERROR_ARGUMENT by dem_simulation_create()), unless dem_model_create_mpi_for() knows of it.
+ *
+ *  Ranks cannot share yet, and refuse: what a program breaks, and a motion that it sets; trajectories, overlaps of
+ *  bodies, their fragments and the energy of cracks, which are of the whole lattice at once, that no rank keeps.
+ *  `mpirun dem_batch` has all but what a program breaks: there rank 0 has the whole besides its part.
  *
  *  MPI is initialised and finalised by the program: models are created after the one and destroyed before the other.
  *  All calls come from one thread, that of MPI_Init() or MPI_Init_thread() unless MPI has MPI_THREAD_SERIALIZED. A
@@ -67,9 +68,21 @@ extern "C" {
 DEM_API dem_status dem_model_create_mpi(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
                                         dem_index n_obstacles, MPI_Comm communicator);
 
-/** The same for Fortran, where a communicator is an integer: docs/fortran.md has its interface. */
+/** The same for simulations with certain options, of which are looked at method, contact, bodies, boundaries, and
+ *  whether there is an external force: ranks get of each other what these have a use for. Without them a model has the
+ *  ghosts for steps of Fehlberg's pair, and in large parts for fewer steps of Verlet's method at once. Simulations with
+ *  other options may take longer, and bodies can touch in them only if they do so with these.
+ *  \param options  the same on all ranks
+ *  \return besides, DEM_ERROR_ARGUMENT if what is looked at differs between ranks */
+DEM_API dem_status dem_model_create_mpi_for(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
+                                            dem_index n_obstacles, const dem_options *options, MPI_Comm communicator);
+
+/** The same for Fortran, where a communicator is an integer: docs/fortran.md has the first one's interface. */
 DEM_API dem_status dem_model_create_mpi_f(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
                                           dem_index n_obstacles, MPI_Fint communicator);
+DEM_API dem_status dem_model_create_mpi_for_f(dem_model **out, const dem_lattice *lattice,
+                                              const dem_obstacle *obstacles, dem_index n_obstacles,
+                                              const dem_options *options, MPI_Fint communicator);
 
 #ifdef __cplusplus
 }

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "base/status.h"
-#include "model/shared_model.h"
 #include "mpi/mpi_ranks.h"
+#include "simulation/shared_use.h"
 
 /* What would leave nobody to talk to. */
 static dem_status check(dem_model *const *out, MPI_Comm communicator)
@@ -26,20 +26,41 @@ static dem_status check(dem_model *const *out, MPI_Comm communicator)
     return dem_private_fail(DEM_ERROR_ARGUMENT, message);
 }
 
+static dem_status share(dem_model **out, const dem_private_whole *whole, MPI_Comm communicator)
+{
+    ranks *r = mpi_ranks_create(communicator);
+    if (r == NULL) return dem_private_fail(DEM_ERROR_MEMORY, "out of memory for the ranks of a communicator");
+    const dem_status status = dem_private_share_model(out, whole, r);
+    if (status != DEM_OK) r->end(r->self);
+    return status;
+}
+
 dem_status dem_model_create_mpi(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
                                 dem_index n_obstacles, MPI_Comm communicator)
 {
     TRY(check(out, communicator));
-    ranks *r = mpi_ranks_create(communicator);
-    if (r == NULL) return dem_private_fail(DEM_ERROR_MEMORY, "out of memory for the ranks of a communicator");
     const dem_private_whole whole = {.lattice = lattice, .obstacles = obstacles, .n_obstacles = n_obstacles};
-    const dem_status status = dem_private_share_model(out, &whole, r);
-    if (status != DEM_OK) r->end(r->self);
-    return status;
+    return share(out, &whole, communicator);
+}
+
+dem_status dem_model_create_mpi_for(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
+                                    dem_index n_obstacles, const dem_options *options, MPI_Comm communicator)
+{
+    TRY(check(out, communicator));
+    dem_private_whole whole = {.lattice = lattice, .obstacles = obstacles, .n_obstacles = n_obstacles};
+    if (options == NULL) return dem_private_fail(DEM_ERROR_ARGUMENT, "dem_model_create_mpi_for: options is NULL");
+    TRY(dem_private_use_shared(&whole, options));
+    return share(out, &whole, communicator);
 }
 
 dem_status dem_model_create_mpi_f(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
                                   dem_index n_obstacles, MPI_Fint communicator)
 {
     return dem_model_create_mpi(out, lattice, obstacles, n_obstacles, MPI_Comm_f2c(communicator));
+}
+
+dem_status dem_model_create_mpi_for_f(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
+                                      dem_index n_obstacles, const dem_options *options, MPI_Fint communicator)
+{
+    return dem_model_create_mpi_for(out, lattice, obstacles, n_obstacles, options, MPI_Comm_f2c(communicator));
 }

@@ -70,6 +70,15 @@ BREAKING = """
 &output name = 'free', frame_interval = 1e-4, peak_every = 3,
     fields = 'displacement', 'stress', 'principal', 'strain', 'force', 'fragment', 'damage', 'contact' /
 """
+# 400,000 nodes that take several steps at once, and land.
+LARGE = """
+&run t_end = 3e-6 /
+&material youngs_modulus = 1e7, density = 1050 /
+&body shape = 'rectangle', size = 0.1, 0.1, spacing = 1.7e-4, clearance = 2e-6, velocity = 0, -1 /
+&obstacle points = -1, 0, 1, 0 /
+&solver method = 'verlet', checkpoint_steps = 10 /
+&output name = 'free', frame_interval = 1.1e-6, history_interval = 7e-7, peak_every = 7 /
+"""
 
 
 class UnderMpirun(unittest.TestCase):
@@ -273,6 +282,13 @@ class LongerTouching(Runs):
                 code, _, errors = self.run_on(n, f"{name}{n}", *settings, deck=deck)
                 self.assertEqual(code, 0, errors)
                 self.assert_same(name, f"{name}{n}")
+
+
+class LongerAtOnce(Runs):
+    def test_files_are_those_of_one_process(self):
+        (self.folder / "free.nml").write_text(LARGE, encoding="ascii")
+        self.check_files(2)
+        self.assertGreater(self.result("one")["events"], 20)
 
 
 class LongerOnObstacles(Obstacles):

@@ -39,6 +39,13 @@ static void refuse_lattices(const dem_lattice *l, bool fails, int n_ranks)
         check_refusal(dem_model_create_mpi(&model, l, NULL, 0, MPI_COMM_WORLD), DEM_ERROR_ARGUMENT,
                       "the lattices or obstacles of the ");
     l->mass[3] = mass;
+    dem_options options = dem_options_default();
+    check_refusal(dem_model_create_mpi_for(&model, l, NULL, 0, NULL, MPI_COMM_WORLD), DEM_ERROR_ARGUMENT,
+                  "options is NULL");
+    if (fails) options.method = DEM_METHOD_VERLET;
+    if (n_ranks > 1)
+        check_refusal(dem_model_create_mpi_for(&model, l, NULL, 0, &options, MPI_COMM_WORLD), DEM_ERROR_ARGUMENT,
+                      "ranks share a model for options that differ");
     if (n_ranks > 1)
         check_refusal(dem_model_create_mpi(&model, l, &floor, fails, MPI_COMM_WORLD), DEM_ERROR_ARGUMENT,
                       "the lattices or obstacles of the ");

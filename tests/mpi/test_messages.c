@@ -122,6 +122,51 @@ static int check(const diary *d, dem_method method, const team *t)
     return n_busy;
 }
 
+/* ---- steps at once ---- */
+
+enum { AT_ONCE = 16 };
+
+/* Of a plate that is large enough for two ranks, in steps of which one in 16 is seen. */
+static void run_at_once(diary *d)
+{
+    dem_model *model = NULL;
+    dem_simulation *s = NULL;
+    dem_lattice l = dem_lattice_empty();
+    const dem_material solid = {.struct_size = sizeof solid,
+                                .youngs_modulus = 1e7,
+                                .poissons_ratio = 1.0 / 3.0,
+                                .density = 1050.0,
+                                .thickness = 1.0};
+    dem_options options = dem_options_default();
+    const dem_observer observer = {
+        .struct_size = sizeof observer, .context = d, .step = note_step, .step_every = AT_ONCE};
+    options.method = DEM_METHOD_VERLET;
+    options.checkpoint_steps = 0;
+    d->n = 0;
+    INSIST(dem_lattice_rectangle(&l, 0.6, 0.53, 1e-3) == DEM_OK && l.n_nodes > 350000);
+    INSIST(dem_lattice_assemble(&l, &solid) == DEM_OK);
+    INSIST(dem_model_create_mpi_for(&model, &l, NULL, 0, &options, MPI_COMM_WORLD) == DEM_OK);
+    dem_lattice_free(&l);
+    INSIST(dem_simulation_create(&s, model, &options) == DEM_OK && dem_simulation_observe(s, &observer) == DEM_OK);
+    options.struct_size = sizeof options;
+    INSIST(dem_simulation_options(s, &options) == DEM_OK);
+    INSIST(dem_simulation_advance(s, 5.5 * AT_ONCE * options.fixed_step) == DEM_OK);
+    dem_simulation_destroy(s);
+    dem_model_destroy(model);
+}
+
+/* One exchange, and a reduction before and behind. The start is seen, and the first steps need its derivative. */
+static void check_at_once(const diary *d)
+{
+    INSIST(d->n == 1 + 5);
+    for (int k = 2; k < d->n; k++) {
+        const calls *now = &d->made[k], *before = &d->made[k - 1];
+        INSIST(d->counts[k].steps - d->counts[k - 1].steps == AT_ONCE);
+        INSIST(now->exchanges - before->exchanges == 1 && now->messages - before->messages == 1);
+        INSIST(now->reductions - before->reductions == 2 && now->others == before->others);
+    }
+}
+
 int main(int argc, char **argv)
 {
     static const dem_method methods[] = {DEM_METHOD_VERLET, DEM_METHOD_FEHLBERG45};
@@ -143,6 +188,10 @@ int main(int argc, char **argv)
         INSIST(check(&d, methods[m], &t) > FEW);
     }
     dem_lattice_free(&l);
+    if (t.size == 2) {
+        run_at_once(&d);
+        check_at_once(&d);
+    }
     (void)MPI_Finalize();
     return 0;
 }

@@ -131,7 +131,10 @@ static void share(const dem_lattice *l, const dem_obstacle *floor, const dem_opt
     INSIST(dem_model_create(&model, l, floor, floor != NULL) == DEM_OK);
     finish(&one, model, options);
     dem_model_destroy(model);
-    INSIST(dem_model_create_mpi(&model, l, floor, floor != NULL, MPI_COMM_WORLD) == DEM_OK);
+    if (floor != NULL)
+        INSIST(dem_model_create_mpi(&model, l, floor, 1, MPI_COMM_WORLD) == DEM_OK);
+    else
+        INSIST(dem_model_create_mpi_for(&model, l, NULL, 0, options, MPI_COMM_WORLD) == DEM_OK);
     check_part(model, l);
     finish(&ranks, model, options);
     dem_model_destroy(model);
@@ -176,7 +179,7 @@ static void fall(int rank)
     dem_lattice_free(&l);
 }
 
-/* Free, and held at one end and pulled; then every rank has two threads. */
+/* Free, where the body may touch itself, and held at one end and pulled; then every rank has two threads. */
 int main(int argc, char **argv)
 {
     static const dem_method methods[] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET};
@@ -196,6 +199,7 @@ int main(int argc, char **argv)
             dem_options options = dem_options_default();
             options.method = methods[k];
             options.checkpoint_steps = 6;
+            options.bodies = is_held ? DEM_BODIES_NONE : DEM_BODIES_ALL;
             options.n_boundaries = is_held;
             options.boundaries = &pull;
             options.threads = is_held + 1;
