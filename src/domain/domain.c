@@ -73,14 +73,16 @@ static dem_status number_nodes(domain *d, const draft *from, dem_index *local)
     d->number = malloc((size_t)d->n_nodes * sizeof *d->number);
     d->is_own = malloc((size_t)d->n_nodes);
     d->is_ghost = malloc((size_t)d->n_nodes);
+    d->is_common = malloc((size_t)d->n_nodes);
     d->is_outer = calloc((size_t)d->n_nodes, 1);
-    CHECK(d->number && d->is_own && d->is_ghost && d->is_outer, DEM_ERROR_MEMORY,
+    CHECK(d->number && d->is_own && d->is_ghost && d->is_common && d->is_outer, DEM_ERROR_MEMORY,
           "out of memory for a domain of %lld nodes", (long long)d->n_nodes);
     for (dem_index i = 0; i < d->n_whole; i++) {
         if (local[i] < 0) continue;
         d->number[local[i]] = i;
         d->is_own[local[i]] = from->shares->owner[i] == from->rank;
         d->is_ghost[local[i]] = !is_integrated(from, i);
+        d->is_common[local[i]] = domain_shares_have_all(from->shares, i);
     }
     for (dem_index k = 0; k < from->rings->n; k++) {
         const ghost *g = &from->rings->list[k];
@@ -175,6 +177,7 @@ void domain_free(domain *d)
     free(d->triangle);
     free(d->is_own);
     free(d->is_ghost);
+    free(d->is_common);
     free(d->is_outer);
     *d = (domain){0};
 }

@@ -29,6 +29,7 @@ typedef struct domain {
     dem_index *triangle;              /* [triangles of the domain] likewise */
     unsigned char *is_own;            /* [n_nodes] 1: an own node, which counts here */
     unsigned char *is_ghost;          /* [n_nodes] 1: what it does comes from its owner; else it is integrated here */
+    unsigned char *is_common;         /* [n_nodes] 1: it is integrated by all ranks */
     unsigned char *is_outer;          /* [n_nodes] 1: a ghost of the last ring: some of its neighbours are not here */
     int n_rings;                      /* of ghosts */
     int n_neighbours;

@@ -16,10 +16,16 @@ typedef struct domain_shares {
     dem_index most_ghosts;          /* of all ranks together, in as many rings as have no more */
 } domain_shares;
 
+/** Whether all ranks integrate node i of the lattice. */
+static inline bool domain_shares_have_all(const domain_shares *s, dem_index i)
+{
+    return s->is_common != NULL && s->is_common[i];
+}
+
 /** Whether a rank integrates node i of the lattice always. */
 static inline bool domain_shares_have(const domain_shares *s, int rank, dem_index i)
 {
-    return s->owner[i] == rank || (s->is_common != NULL && s->is_common[i]);
+    return s->owner[i] == rank || domain_shares_have_all(s, i);
 }
 
 #endif

@@ -50,7 +50,7 @@ static dem_status add(ghost_rings *g, const domain_shares *s, int rank, int ring
 /* Node j is next to node i. */
 static dem_status add_first(ghost_rings *g, const domain_shares *s, dem_index i, dem_index j)
 {
-    const bool everywhere = s->is_common != NULL && s->is_common[i];
+    const bool everywhere = domain_shares_have_all(s, i);
     const int first = everywhere ? 0 : s->owner[i], end = everywhere ? s->n_ranks : first + 1;
     for (int rank = first; rank < end; rank++) TRY(add(g, s, rank, 1, j));
     return DEM_OK;

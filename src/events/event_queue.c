@@ -27,6 +27,7 @@ dem_status event_queue_create(event_queue *out, const event_queue_parts *parts)
                          .forces = f,
                          .constraints = c,
                          .sources = parts->sources,
+                         .is_common = parts->is_common,
                          .happens = parts->happens,
                          .most = parts->controlled ? 1.0 : (double)INFINITY};
     dem_status status = changed_motion_create(&out->changed, l);
@@ -138,6 +139,22 @@ static dem_status find_seeds(event_queue *q, const due_event *due, dem_index *n)
     return DEM_OK;
 }
 
+/* Ranks go from common nodes to their neighbours, and so find the same, up to the first node that is none. */
+static dem_status check_common(event_queue *q)
+{
+    const local_nodes *near = &q->correction.near.nodes;
+    for (dem_index j = 0; j < near->n && q->is_common != NULL; j++) {
+        q->lacks_nodes = !q->is_common[near->list[j]];
+        CHECK(!q->lacks_nodes, DEM_STOPPED, "an event at t = %.9g s concerns nodes that not all ranks have", q->now);
+    }
+    return DEM_OK;
+}
+
+bool event_queue_lacks_nodes(const event_queue *q)
+{
+    return q->lacks_nodes;
+}
+
 /* Resolves an event, after all sources have prepared for it. */
 static dem_status resolve(event_queue *q, const due_event *due, const event_place *at)
 {
@@ -163,6 +180,7 @@ static dem_status take(event_queue *q, const due_event *due)
     TRY(find_seeds(q, due, &n_seeds));
     const neighbourhood_seeds seeds = {q->seeds, n_seeds, due->source->changes_forces};
     TRY(local_correction_open(&q->correction, q->step, seeds, q->now, q->state));
+    TRY(check_common(q));
     TRY(resolve(q, due, &at));
     if (due->source->changes_forces) TRY(q->forces->renew(q->forces->self, &q->correction.near.nodes));
     TRY(local_correction_close(&q->correction, q->step, &q->changed, q->state, &error));

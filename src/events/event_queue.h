@@ -14,6 +14,8 @@ typedef struct event_queue {
     const local_forces *forces;
     const constraints *constraints; /* NULL: none */
     const source_list *sources;
+    const unsigned char *is_common; /* [n_nodes] see below */
+    bool lacks_nodes;               /* an event has concerned a node that is not */
     local_correction correction;
     changed_motion changed;
     local_nodes renewed;      /* those with another derivative at the end */
@@ -40,6 +42,8 @@ typedef struct event_queue_parts {
     const local_forces *forces;
     const constraints *constraints; /* NULL: none */
     const source_list *sources;
+    const unsigned char *is_common; /* [n_nodes] whether all ranks that share a model integrate a node: those that an
+                                       event concerns; NULL: one process has all */
     local_correction_rule rule;
     bool happens;    /* whether there may be events of any source */
     bool controlled; /* a step is rejected for an error above 1 */
@@ -60,8 +64,11 @@ bool event_queue_has_event(const event_queue *q);
 /** Resolves the events up to t, and takes back those after it, so that sources and motion are those at t; the end of
  *  the step is complete when t is not before it.
  *  \return what a source returns for an event, DEM_ERROR_INTEGRATOR if what follows from an event is not finite,
- *  DEM_ERROR_MEMORY */
+ *  DEM_ERROR_MEMORY; DEM_STOPPED on all ranks, at the same event, if it concerns nodes that not all of them have */
 dem_status event_queue_show(event_queue *q, double t);
+
+/** Whether it has, so that the run cannot go on with these shares of the model. */
+bool event_queue_lacks_nodes(const event_queue *q);
 
 /** Error of the step by its events, in units of the largest allowed. */
 double event_queue_error(const event_queue *q);

@@ -36,7 +36,7 @@ static head head_of(const dem_model *m)
               .omega_max = m->omega_max,
               .mass = m->mass};
     h.domain.number = h.domain.spring = h.domain.triangle = NULL;
-    h.domain.is_own = h.domain.is_ghost = h.domain.is_outer = NULL;
+    h.domain.is_own = h.domain.is_ghost = h.domain.is_common = h.domain.is_outer = NULL;
     h.domain.neighbours = NULL;
     return h;
 }
@@ -94,6 +94,7 @@ static void list_domain(parcel *p, domain *d, const head *h)
     parcel_add(p, &d->triangle, (size_t)h->n[LATTICE_TRIANGLES] * sizeof *d->triangle);
     parcel_add(p, &d->is_own, n);
     parcel_add(p, &d->is_ghost, n);
+    parcel_add(p, &d->is_common, n);
     parcel_add(p, &d->is_outer, n);
     parcel_add(p, &d->neighbours, (size_t)h->domain.n_neighbours * sizeof *d->neighbours);
 }

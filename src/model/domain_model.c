@@ -18,7 +18,8 @@
  * - where there are obstacles, or surfaces beside what may break, what the correction of a step for an event changes or
  *   reads, too (events/local_correction.c): its rings about the nodes that the event moves, which are among those that
  *   may touch or break, and the accelerations of the last of these rings. From one surface to another that it touches a
- *   ring goes to nodes that are on surfaces, and begins anew there. */
+ *   ring goes to nodes that are on surfaces, and begins anew there. Who can do without some events has rings only where
+ *   others may happen soon. */
 #include "model/domain_model.h"
 
 #include <stdlib.h>
@@ -112,17 +113,29 @@ int domain_model_rings(const dem_lattice *lattice)
     return lattice->viscosity != NULL ? 7 : 4;
 }
 
-/* \param boundary  of surfaces that may touch each other; NULL: none do. Without obstacles, and what may break, there
- *  are no events, and so no rings */
-static dem_status find_common(const dem_model *whole, const mesh_boundary *boundary, unsigned char *is_common)
+/* \param is_near  NULL: all that may touch obstacles are */
+static void mark_near(const dem_model *whole, const unsigned char *is_near, unsigned char *is_common)
 {
     const dem_lattice *l = &whole->lattice;
-    const bool has_obstacles = whole->obstacles.n > 0;
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        const bool may_touch = whole->obstacles.n > 0 && l->flags[i] & DEM_NODE_CONTACT;
+        if (l->flags[i] & DEM_NODE_RIGID || (may_touch && (is_near == NULL || is_near[i]))) is_common[i] = 1;
+    }
+}
+
+/* \param boundary  of surfaces that may touch each other; NULL: none do. Without obstacles, and what may break, there
+ *  are no events, and so no rings. What is not near has none either */
+static dem_status find_common(const dem_model *whole, const mesh_boundary *boundary, const unsigned char *is_near,
+                              unsigned char *is_common)
+{
+    const dem_lattice *l = &whole->lattice;
     TRY(breakable_nodes_mark(l, is_common));
-    for (dem_index i = 0; i < l->n_nodes; i++)
-        if ((has_obstacles && l->flags[i] & DEM_NODE_CONTACT) || l->flags[i] & DEM_NODE_RIGID) is_common[i] = 1;
+    mark_near(whole, is_near, is_common);
+    if (boundary != NULL && is_near == NULL) mesh_boundary_mark(boundary, is_common, 1);
+    if (whole->obstacles.n > 0 || breakable_lattice(l)) common_nodes_add_rings(l, domain_model_rings(l), is_common);
+    if (is_near == NULL) return DEM_OK;
+    mark_near(whole, NULL, is_common);
     if (boundary != NULL) mesh_boundary_mark(boundary, is_common, 1);
-    if (has_obstacles || breakable_lattice(l)) common_nodes_add_rings(l, domain_model_rings(l), is_common);
     return DEM_OK;
 }
 
@@ -169,7 +182,7 @@ static dem_status open_whole(whole_lattice *w, const ranks *r, const dem_model *
     TRY(touching_bodies_create(&w->bodies, &model->lattice));
     w->is_common = lattice_zeros(model->lattice.n_nodes, sizeof *w->is_common);
     CHECK_MEMORY(w->is_common);
-    TRY(find_common(model, shares->touching ? &w->bodies.boundary : NULL, w->is_common));
+    TRY(find_common(model, shares->touching ? &w->bodies.boundary : NULL, shares->is_near, w->is_common));
     return find_rings(w, r, shares);
 }
 

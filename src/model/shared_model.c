@@ -125,8 +125,10 @@ dem_status shared_model_distribute(dem_model **out, const dem_model *whole, cons
 {
     int32_t *owner = NULL;
     dem_status status = r->rank == 0 ? find_owners(&owner, &whole->lattice, about->weights, r->size) : DEM_OK;
-    const domain_model_shares shares = {
-        .owner = owner, .touching = about->touching == DEM_PRIVATE_TOUCHING_SOME, .use = about->use};
+    const domain_model_shares shares = {.owner = owner,
+                                        .is_near = about->is_near,
+                                        .touching = about->touching == DEM_PRIVATE_TOUCHING_SOME,
+                                        .use = about->use};
     status = reduce_status(r, status, 0.0);
     if (status == DEM_OK)
         status = domain_model_distribute(out, r, whole, &shares, about->obstacles, about->n_obstacles);

@@ -22,8 +22,9 @@ typedef struct dem_private_whole {
     const dem_obstacle *obstacles; /* [n_obstacles] */
     dem_index n_obstacles;
     dem_private_touching touching;
-    const double *weights; /* [nodes] >= 0, what they weigh in the partition; NULL: all the same */
-    ring_use use;          /* of rings of ghosts; of 0 rings: not known */
+    const double *weights;        /* [nodes] >= 0, what they weigh in the partition; NULL: all the same */
+    const unsigned char *is_near; /* [nodes] as domain_model_shares has them */
+    ring_use use;                 /* of rings of ghosts; of 0 rings: not known */
 } dem_private_whole;
 
 /** Shares the nodes out among ranks, each of which gets the model of its part. Collective: whatever fails on one rank

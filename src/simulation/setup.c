@@ -105,6 +105,7 @@ static dem_status set_up_queue(dem_simulation *s)
                                         .forces = &s->local_forces,
                                         .constraints = &s->closed_contacts,
                                         .sources = &s->sources,
+                                        .is_common = d != NULL ? d->is_common : NULL,
                                         .rule = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale, n_nodes},
                                         .happens = s->model->obstacles.n > 0 || run_may_break(s),
                                         .controlled = !(o->fixed_step > 0.0)});

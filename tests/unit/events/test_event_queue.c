@@ -731,6 +731,24 @@ TEST(a_step_without_events_is_left_as_it_is)
     assert_close(event_queue_error(&r.q), 0.0, 0.0);
 }
 
+/* The first of two impacts concerns a node that all ranks have, the second one that they have not. */
+TEST(an_event_that_concerns_what_not_all_ranks_have_stops)
+{
+    static const double heights[] = {0.0112, 0.0163};
+    static const unsigned char is_common[] = {1, 0};
+    CLEANUP(close_rig) rig r;
+    open_masses(&r, 2, heights, 0.5, 0.0);
+    r.q.is_common = is_common;
+    fall(&r, 0.0, 0.1);
+    show(&r, 0.5 * (time_of_fall(heights[0]) + time_of_fall(heights[1])));
+    assert_false(event_queue_lacks_nodes(&r.q));
+    assert_int_equal(r.q.n_events, 1);
+    assert_int_equal(event_queue_show(&r.q, 0.1), DEM_STOPPED);
+    assert_true(event_queue_lacks_nodes(&r.q));
+    assert_int_equal(r.q.n_events, 1);
+    assert_non_null(strstr(dem_status_message(), "not all ranks"));
+}
+
 /* Between the impacts of the lower and the higher mass: one has happened, the other not, in motion and in ledger. */
 TEST(a_step_shown_at_a_time_is_what_it_is_then)
 {

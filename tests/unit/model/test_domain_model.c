@@ -15,7 +15,8 @@ enum { N_RANKS = 5, TEXT = 200 };
 typedef struct shared {
     const dem_model *whole;
     const int32_t *owner;
-    bool touching, is_sent; /* whether bodies may touch; whether rank 0 alone has the whole */
+    const unsigned char *is_near; /* [nodes] */
+    bool touching, is_sent;       /* whether bodies may touch; whether rank 0 alone has the whole */
     int n_rings;
     dem_model *models[N_RANKS];
     dem_status status[N_RANKS];
@@ -26,8 +27,10 @@ static void create(const ranks *r, void *context)
 {
     shared *s = context;
     const dem_model *whole = s->is_sent && r->rank > 0 ? NULL : s->whole;
-    const domain_model_shares shares = {
-        .owner = whole != NULL ? s->owner : NULL, .touching = s->touching, .n_rings = s->n_rings};
+    const domain_model_shares shares = {.owner = whole != NULL ? s->owner : NULL,
+                                        .is_near = whole != NULL ? s->is_near : NULL,
+                                        .touching = s->touching,
+                                        .n_rings = s->n_rings};
     dem_model **out = &s->models[r->rank];
     s->status[r->rank] =
         s->is_sent ? domain_model_distribute(out, r, whole, &shares, s->whole->obstacles.list, s->whole->obstacles.n)
@@ -149,6 +152,7 @@ TEST(a_domain_that_is_sent_is_the_one_that_is_cut)
         assert_memory_equal(a->number, b->number, (size_t)a->n_nodes * sizeof *a->number);
         assert_memory_equal(a->is_own, b->is_own, (size_t)a->n_nodes);
         assert_memory_equal(a->is_ghost, b->is_ghost, (size_t)a->n_nodes);
+        assert_memory_equal(a->is_common, b->is_common, (size_t)a->n_nodes);
         assert_memory_equal(a->is_outer, b->is_outer, (size_t)a->n_nodes);
         assert_int_equal(a->n_rings, 3);
         assert_int_equal(b->n_rings, 3);
@@ -197,6 +201,49 @@ TEST(what_may_touch_obstacles_is_on_all_ranks)
             assert_int_equal(s.models[k]->obstacles.n, 1);
             assert_same_rows(s.models[k], whole);
             assert_whole_surface(s.models[k], whole);
+        }
+        destroy(&s);
+    }
+}
+
+/* As far from marked nodes as the rings say, by a look at all springs again and again. */
+static void mark_rings(const dem_lattice *l, int n_rings, unsigned char *marks)
+{
+    CLEANUP(free_memory) unsigned char *before = malloc((size_t)l->n_nodes);
+    for (int ring = 0; ring < n_rings; ring++) {
+        memcpy(before, marks, (size_t)l->n_nodes);
+        for (dem_index k = 0; k < 2 * l->n_springs; k++)
+            if (before[l->ends[k ^ 1]]) marks[l->ends[k]] = 1;
+    }
+}
+
+TEST(rings_are_common_about_what_is_near_alone)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+    CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
+    const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 1.0);
+    CLEANUP(free_model) dem_model *whole = support_model(&l, &floor, 1);
+    const unsigned char *flags = whole->lattice.flags;
+    CLEANUP(free_memory) unsigned char *is_near = calloc((size_t)l.n_nodes, 1);
+    CLEANUP(free_memory) unsigned char *expected = calloc((size_t)l.n_nodes, 1);
+    for (dem_index i = 0; i < l.n_nodes; i++)
+        is_near[i] = expected[i] = flags[i] & DEM_NODE_CONTACT && l.x[2 * i + 1] < -0.03;
+    mark_rings(&whole->lattice, domain_model_rings(&l), expected);
+    for (dem_index i = 0; i < l.n_nodes; i++) expected[i] |= (flags[i] & DEM_NODE_CONTACT) != 0;
+    for (int is_sent = 0; is_sent < 2; is_sent++) {
+        shared s = {.whole = whole, .owner = owner, .is_near = is_near, .touching = true, .is_sent = is_sent};
+        rank_threads_run(N_RANKS, create, &s);
+        for (int k = 0; k < N_RANKS; k++) {
+            const domain *d = s.models[k]->domain;
+            dem_index n_common = 0;
+            assert_int_equal(s.status[k], DEM_OK);
+            assert_whole_surface(s.models[k], whole);
+            for (dem_index i = 0; i < d->n_nodes; i++) {
+                assert_int_equal(d->is_common[i], expected[d->number[i]]);
+                n_common += d->is_common[i];
+            }
+            for (dem_index i = 0; i < l.n_nodes; i++) n_common -= expected[i];
+            assert_int_equal(n_common, 0);
         }
         destroy(&s);
     }
