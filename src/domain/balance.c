@@ -35,6 +35,11 @@ void balance_begin(balance *b, double price)
     b->price = price;
 }
 
+void balance_go_on(balance *b, double price)
+{
+    b->price = price;
+}
+
 /* Messages go both ways: those of rank 0 are empty. */
 void balance_collect(balance *b, const ranks *r, double own)
 {

@@ -27,6 +27,9 @@ void balance_free(balance *b);
 /** Nodes have been shared out by the weights, in so many seconds. */
 void balance_begin(balance *b, double price);
 
+/** They have been by the same weights as before, in so many seconds. */
+void balance_go_on(balance *b, double price);
+
 /** Tells rank 0 how long each rank has worked since then. Collective.
  *  \param own  s, of this rank */
 void balance_collect(balance *b, const ranks *r, double own);

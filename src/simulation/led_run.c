@@ -10,6 +10,7 @@
 #include "base/checkpoint_entries.h"
 #include "base/reduce.h"
 #include "base/status.h"
+#include "contact/near_contact.h"
 #include "domain/balance.h"
 #include "domain/gather.h"
 #include "model/shared_model.h"
@@ -36,7 +37,11 @@ struct led_run {
     double busy, entered;       /* s of work since nodes were shared out, and busy_time() in enter() */
     balance balance;            /* of them. On rank 0: */
     const dem_options *options; /* of the whole */
+    near_contact near;          /* of its surfaces */
+    bool weighs_anew;           /* nodes are about to be shared out by other weights */
     bool shares_anew;           /* the nodes, from the checkpoint that the run has just taken */
+    dem_index n_calls, n_seen; /* of observers since the last checkpoint, and those of them made before it was gone back
+                                   to. On all ranks */
 };
 
 /* ---- work of all ranks together ---- */
@@ -75,7 +80,10 @@ static void drop(led_run *l)
 
 static dem_status create_part(led_run *l, const shared_problem *p, bool resumes, const dem_checkpoint *checkpoint)
 {
-    dem_private_whole about = {.obstacles = p->obstacles, .n_obstacles = p->n_obstacles, .weights = l->balance.weights};
+    dem_private_whole about = {.obstacles = p->obstacles,
+                               .n_obstacles = p->n_obstacles,
+                               .weights = l->balance.weights,
+                               .is_near = near_contact_nodes(&l->near)};
     TRY(dem_private_use_shared(&about, &p->options));
     TRY(shared_model_distribute(&l->model, l->whole != NULL ? l->whole->model : NULL, &about, &l->ranks));
     if (resumes)
@@ -98,7 +106,11 @@ static dem_status create(led_run *l, dem_checkpoint *entries, bool resumes, cons
     leave(l);
     shared_problem_free(&p);
     if (status != DEM_OK) drop(l);
-    balance_begin(&l->balance, l->busy);
+    if (l->weighs_anew)
+        balance_begin(&l->balance, l->busy);
+    else
+        balance_go_on(&l->balance, l->busy);
+    l->weighs_anew = false;
     l->busy = 0.0;
     return status;
 }
@@ -108,6 +120,28 @@ static bool collect_busy(led_run *l)
 {
     if (l->ranks.busy == NULL) return false;
     balance_collect(&l->balance, &l->ranks, l->busy + busy_time(l) - l->entered);
+    return true;
+}
+
+/* ---- again from a checkpoint ---- */
+
+static void pass_checkpoint(led_run *l)
+{
+    l->n_calls = l->n_seen = 0;
+}
+
+/* Observers see nothing twice: the same steps bring the same calls. */
+static bool has_seen(led_run *l)
+{
+    return l->n_calls++ < l->n_seen;
+}
+
+/* Whether an event has stopped all parts, as it concerns nodes that not all of them have. */
+static bool goes_back(led_run *l)
+{
+    if (l->part == NULL || !event_queue_lacks_nodes(&l->part->queue)) return false;
+    l->n_seen = l->n_calls;
+    l->n_calls = 0;
     return true;
 }
 
@@ -142,6 +176,7 @@ static dem_status release(led_run *l, dem_status status)
 /* Where bodies touch is not asked: observers that want to see it see all steps but those taken at once. */
 static dem_status lead_step(void *context, const dem_simulation *part)
 {
+    if (has_seen(context)) return DEM_OK;
     led_run *l = hold(context);
     const accepted_step step = {run_count_steps(part), part->t, !part->unseen.is_last};
     return release(l, observers_step(&l->whole->observers, l->whole, &step));
@@ -149,23 +184,26 @@ static dem_status lead_step(void *context, const dem_simulation *part)
 
 static dem_status lead_event(void *context, const dem_simulation *part, const dem_event *event)
 {
-    led_run *l = hold(context);
     (void)part;
+    if (has_seen(context)) return DEM_OK;
+    led_run *l = hold(context);
     return release(l, observers_event(&l->whole->observers, l->whole, event));
 }
 
 static dem_status lead_break(void *context, const dem_simulation *part, const dem_break *what)
 {
-    led_run *l = hold(context);
     (void)part;
+    if (has_seen(context)) return DEM_OK;
+    led_run *l = hold(context);
     return release(l, observers_broken(&l->whole->observers, l->whole, what));
 }
 
 static dem_status lead_frame(void *context, const dem_simulation *part)
 {
     const frame_relay *f = context;
-    led_run *l = hold(f->run);
     (void)part;
+    if (has_seen(f->run)) return DEM_OK;
+    led_run *l = hold(f->run);
     return release(l, observers_frame(&l->whole->observers, f->observer, l->whole));
 }
 
@@ -179,16 +217,33 @@ static dem_status take_checkpoint(dem_simulation *whole, const dem_checkpoint *f
     return observers_checkpoint(&whole->observers, whole, whole->checkpoint);
 }
 
-/* A part goes on from a checkpoint as one does that begins there: so nodes may be shared out anew, for which the
- * advance of all parts stops. */
+/* \param checkpoint  NULL: of the start */
+static void look_ahead(led_run *l, const dem_checkpoint *checkpoint)
+{
+    const dem_lattice *lattice = &l->whole->model->lattice;
+    near_contact_state state = {l->whole->t, lattice->position, lattice->velocity};
+    size_t size;
+    if (checkpoint != NULL) {
+        state.x = dem_checkpoint_find(checkpoint, "state", &size);
+        state.v = state.x + state_velocities(&l->whole->layout);
+    }
+    near_contact_look(&l->near, &state);
+}
+
+/* A part goes on from a checkpoint as one does that begins there: so nodes may be shared out anew, or other ones be
+ * common, for which the advance of all parts stops. */
 static dem_status lead_checkpoint(void *context, const dem_simulation *part, dem_checkpoint *checkpoint)
 {
     led_run *l = context;
     const bool pays = collect_busy(l) && balance_pays(&l->balance);
     (void)part;
     (void)hold(l);
-    const dem_status status = take_checkpoint(l->whole, checkpoint);
-    l->shares_anew = status == DEM_OK && pays;
+    pass_checkpoint(l);
+    dem_status status = take_checkpoint(l->whole, checkpoint);
+    if (status == DEM_OK) look_ahead(l, l->whole->checkpoint);
+    l->weighs_anew = status == DEM_OK && pays;
+    l->shares_anew =
+        l->weighs_anew || (status == DEM_OK && near_contact_is_outdated(&l->near, l->busy, l->balance.price));
     return release(l, l->shares_anew ? DEM_STOPPED : status);
 }
 
@@ -196,13 +251,18 @@ static dem_status lead_checkpoint(void *context, const dem_simulation *part, dem
 
 static rank_call serve(led_run *l);
 
-/* An observer of the leader's, seen from a follower. */
-static dem_status follow_observer(led_run *l)
+static dem_status wait_for_leader(led_run *l)
 {
     leave(l);
     const rank_call last = serve(l);
     enter(l);
     return last.number == DEM_OK ? DEM_OK : status_repeat((dem_status)last.number, "rank 0 has ended the run");
+}
+
+/* An observer of the leader's, seen from a follower. */
+static dem_status follow_observer(led_run *l)
+{
+    return has_seen(l) ? DEM_OK : wait_for_leader(l);
 }
 
 static dem_status follow_step(void *context, const dem_simulation *part)
@@ -236,7 +296,8 @@ static dem_status follow_checkpoint(void *context, const dem_simulation *part, d
     (void)part;
     (void)checkpoint;
     (void)collect_busy(context);
-    return follow_observer(context);
+    pass_checkpoint(context);
+    return wait_for_leader(context);
 }
 
 /* ---- what all ranks do ---- */
@@ -306,6 +367,7 @@ static void take_part(led_run *l, const rank_call *o)
         break;
     case RANK_CALL_ADVANCE:
         (void)dem_simulation_advance(l->part, o->t);
+        (void)goes_back(l);
         break;
     case RANK_CALL_GATHER:
         (void)gather(l);
@@ -428,14 +490,28 @@ static dem_status begin(led_run *l, const dem_checkpoint *checkpoint)
     return status;
 }
 
-static dem_status share_anew(led_run *l)
+static dem_status weigh_anew(led_run *l)
 {
-    l->shares_anew = false;
-    l->busy = 0.0; /* from here on it is what this takes */
     enter(l);
     const dem_status status = balance_weigh(&l->balance, &l->whole->model->lattice);
     leave(l);
-    TRY(status);
+    return status;
+}
+
+static dem_status share_anew(led_run *l)
+{
+    near_contact_take(&l->near, l->busy, l->balance.price);
+    l->shares_anew = false;
+    l->busy = 0.0; /* from here on it is what this takes */
+    if (l->weighs_anew) TRY(weigh_anew(l));
+    return begin(l, l->whole->checkpoint);
+}
+
+/* What an event concerns is common in the parts that are made now. */
+static dem_status go_back(led_run *l)
+{
+    near_contact_take_all(&l->near);
+    l->busy = 0.0;
     return begin(l, l->whole->checkpoint);
 }
 
@@ -455,14 +531,16 @@ dem_status led_run_advance(dem_simulation *whole, double t_end)
     for (;;) {
         if (!l->is_observed) TRY(attach(l));
         const dem_status status = advance_parts(l, t_end);
-        if (!l->shares_anew) return status;
-        TRY(share_anew(l));
+        const bool back = goes_back(l);
+        if (!back && !l->shares_anew) return status;
+        TRY(back ? go_back(l) : share_anew(l));
     }
 }
 
 static void free_run(led_run *l)
 {
     balance_free(&l->balance);
+    near_contact_free(&l->near);
     free(l);
 }
 
@@ -473,6 +551,9 @@ static dem_status lead(led_run *l, const dem_checkpoint *checkpoint)
           "rank 0 cannot lead a run with obstacles whose motion a function computes");
     CHECK(l->options->force == NULL, DEM_ERROR_ARGUMENT, "rank 0 cannot lead a run with an external force");
     TRY(balance_create(&l->balance, l->ranks.size));
+    if (l->ranks.size > 1) TRY(near_contact_create(&l->near, l->whole->model, &l->whole->options));
+    look_ahead(l, checkpoint);
+    near_contact_take(&l->near, 0.0, 0.0);
     return begin(l, checkpoint);
 }
 
@@ -489,7 +570,7 @@ dem_status dem_private_lead(dem_simulation *whole, const ranks *r, const dem_opt
 {
     led_run *l = calloc(1, sizeof *l);
     CHECK_MEMORY(l);
-    *l = (led_run){.ranks = *r, .whole = whole, .options = options};
+    *l = (led_run){.ranks = *r, .whole = whole, .options = options, .weighs_anew = true};
     l->ranks.end = NULL;
     step_parts_destroy(whole); /* before there is memory for parts */
     const dem_status status = lead(l, checkpoint);
