@@ -5,7 +5,7 @@
 
     ranks_model.py [--nodes 1e6 ...] [--ranks 8 ...]
 
-A rank integrates its own nodes, rings of ghosts about them, and in a body that may touch all round the common nodes;
+A rank integrates its own nodes, rings of ghosts about them, and the common nodes of a body that stands on an obstacle;
 it sends one message to each neighbour, takes part in one reduction, and resolves the events of all ranks:
 
     T = c (N/P + R sqrt(N/P)) + a + b R sqrt(N/P) + r log2 P, and in contact + c K sqrt(N) + e sqrt(N) t
@@ -15,7 +15,7 @@ import math
 
 # c, s a node and step; R, ghosts over the root of the own nodes of a square; bytes sent of a ghost
 METHODS = {"fehlberg45": (34e-9, 12, 32), "verlet": (4.5e-9, 4, 16)}
-COMMON = 20         # K: four rings about a square, measured
+COMMON = 9          # K: the surface of a square and four rings about one side, measured; about all sides 20
 EVENTS = 0.024      # e, a step: a block of 89,099 nodes had 1715 in the 236 steps of its landing
 EVENT = 9e-6        # t, s, measured
 LATENCY = 8e-6      # a, s: six neighbours at 1.3 us each, as a fast network has it; not measured
