@@ -80,6 +80,18 @@ LARGE = """
 &solver method = 'verlet', checkpoint_steps = 25 /
 &output name = 'free', frame_interval = 1.7e-6, history_interval = 1.4e-6, peak_every = 14 /
 """
+# Falls from rest, and is soon so fast that no rank has foreseen at the only checkpoint what it will hit.
+DROPPED = """
+&run t_end = 2.2e-3, gravity = 0, -1.6e4 /
+&material youngs_modulus = 1e7, poissons_ratio = 0.3, density = 1050 /
+&body shape = 'disc', radius = 0.04, spacing = 5e-3, position = 0, 0.056 /
+&obstacle points = -0.2, 0.003, 0, 0, 0.2, 0.003, friction = 0.3, restitution = 0.5 /
+&contact bodies = 'none' /
+&solver checkpoint_steps = 100000 /
+&output name = 'free', frame_interval = 1e-4, history_interval = 5e-5, events = .true., peak_every = 3,
+    fields = 'displacement', 'velocity', 'stress' /
+&probe name = 'middle', body = 1, place = 0, 0 /
+"""
 
 
 class UnderMpirun(unittest.TestCase):
@@ -148,6 +160,7 @@ class Runs(unittest.TestCase):
         (self.folder / "plate.nml").write_text(PLATE, encoding="ascii")
         (self.folder / "touching.nml").write_text(TOUCHING, encoding="ascii")
         (self.folder / "breaking.nml").write_text(BREAKING, encoding="ascii")
+        (self.folder / "dropped.nml").write_text(DROPPED, encoding="ascii")
 
     def command(self, n, outdir, *more, deck="free.nml"):
         launcher = [] if n == 0 else [MPIRUN, "-n", str(n), *self.within]
@@ -245,6 +258,16 @@ class Obstacles(Runs):
             self.assertEqual("resumed" in log, k > 0)
             self.assertGreater(self.result("parts")["contacts"], 0)
         self.assert_same("one", "parts")
+
+
+class Dropped(Runs):
+    def test_what_was_not_foreseen_is_in_the_files_once(self):
+        self.assertEqual(self.run_on(0, "one", deck="dropped.nml")[0], 0)
+        self.assertGreater(self.result("one")["events"], 5)
+        for n in (2, 3):
+            code, _, errors = self.run_on(n, f"ranks{n}", deck="dropped.nml")
+            self.assertEqual(code, 0, errors)
+            self.assert_same("one", f"ranks{n}")
 
 
 class Touching(Runs):
