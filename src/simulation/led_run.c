@@ -26,6 +26,12 @@ typedef struct frame_relay {
     int observer;
 } frame_relay;
 
+/* Calls of observers. */
+typedef struct calls {
+    dem_index n;    /* for events, breaks and frames, */
+    dem_index step; /* and the last step for which there was one; -1: there was none */
+} calls;
+
 /* What each rank has of it. */
 struct led_run {
     ranks ranks;           /* which do not end with the model */
@@ -40,8 +46,7 @@ struct led_run {
     near_contact near;          /* of its surfaces */
     bool weighs_anew;           /* nodes are about to be shared out by other weights */
     bool shares_anew;           /* the nodes, from the checkpoint that the run has just taken */
-    dem_index n_calls, n_seen; /* of observers since the last checkpoint, and those of them made before it was gone back
-                                   to. On all ranks */
+    calls made, seen;           /* since the last checkpoint, and before it was gone back to. On all ranks */
 };
 
 /* ---- work of all ranks together ---- */
@@ -127,21 +132,27 @@ static bool collect_busy(led_run *l)
 
 static void pass_checkpoint(led_run *l)
 {
-    l->n_calls = l->n_seen = 0;
+    l->made = l->seen = (calls){.step = -1};
 }
 
-/* Observers see nothing twice: the same steps bring the same calls. */
+/* Observers see nothing twice: the same steps bring the same events, breaks and frames. */
 static bool has_seen(led_run *l)
 {
-    return l->n_calls++ < l->n_seen;
+    return l->made.n++ < l->seen.n;
+}
+
+static bool has_seen_step(led_run *l, const dem_simulation *part)
+{
+    l->made.step = run_count_steps(part);
+    return l->made.step <= l->seen.step;
 }
 
 /* Whether an event has stopped all parts, as it concerns nodes that not all of them have. */
 static bool goes_back(led_run *l)
 {
     if (l->part == NULL || !event_queue_lacks_nodes(&l->part->queue)) return false;
-    l->n_seen = l->n_calls;
-    l->n_calls = 0;
+    l->seen = l->made;
+    l->made = (calls){.step = -1};
     return true;
 }
 
@@ -176,7 +187,7 @@ static dem_status release(led_run *l, dem_status status)
 /* Where bodies touch is not asked: observers that want to see it see all steps but those taken at once. */
 static dem_status lead_step(void *context, const dem_simulation *part)
 {
-    if (has_seen(context)) return DEM_OK;
+    if (has_seen_step(context, part)) return DEM_OK;
     led_run *l = hold(context);
     const accepted_step step = {run_count_steps(part), part->t, !part->unseen.is_last};
     return release(l, observers_step(&l->whole->observers, l->whole, &step));
@@ -267,8 +278,7 @@ static dem_status follow_observer(led_run *l)
 
 static dem_status follow_step(void *context, const dem_simulation *part)
 {
-    (void)part;
-    return follow_observer(context);
+    return has_seen_step(context, part) ? DEM_OK : wait_for_leader(context);
 }
 
 static dem_status follow_event(void *context, const dem_simulation *part, const dem_event *event)
@@ -572,6 +582,7 @@ dem_status dem_private_lead(dem_simulation *whole, const ranks *r, const dem_opt
     CHECK_MEMORY(l);
     *l = (led_run){.ranks = *r, .whole = whole, .options = options, .weighs_anew = true};
     l->ranks.end = NULL;
+    pass_checkpoint(l);
     step_parts_destroy(whole); /* before there is memory for parts */
     const dem_status status = lead(l, checkpoint);
     if (status != DEM_OK) {
@@ -595,6 +606,7 @@ dem_index dem_private_follow(const ranks *r)
 {
     led_run l = {.ranks = *r};
     l.ranks.end = NULL;
+    pass_checkpoint(&l);
     const rank_call last = serve(&l);
     drop(&l);
     return last.number;
