@@ -3,6 +3,7 @@
 #ifndef DEM_BASE_SORTED_H
 #define DEM_BASE_SORTED_H
 
+#include <stdbool.h>
 #include <stdlib.h>
 
 #include <dem/dem.h>
@@ -13,11 +14,20 @@ static inline int sorted_compare(const void *a, const void *b)
     return (first > second) - (first < second);
 }
 
+/** Whether a list [n] is in ascending order, with each number once. */
+static inline bool sorted_is(const dem_index *list, dem_index n)
+{
+    for (dem_index k = 1; k < n; k++)
+        if (list[k - 1] >= list[k]) return false;
+    return true;
+}
+
 /** Puts a list [n] in ascending order, each number once.  \return how many there are */
 static inline dem_index sorted_make(dem_index *list, dem_index n)
 {
     dem_index kept = 0;
-    if (n > 0) qsort(list, (size_t)n, sizeof *list, sorted_compare);
+    if (sorted_is(list, n)) return n;
+    qsort(list, (size_t)n, sizeof *list, sorted_compare);
     for (dem_index k = 0; k < n; k++)
         if (kept == 0 || list[k] != list[kept - 1]) list[kept++] = list[k];
     return kept;

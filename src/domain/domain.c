@@ -21,72 +21,66 @@ static int compare(const void *a, const void *b)
     return (p->node > q->node) - (p->node < q->node);
 }
 
-/* A list, or without room only how long it would be. */
 typedef struct borders {
     dem_index n;
-    border *list;
+    border *list; /* [n] */
 } borders;
 
 /* Own nodes that are ghosts of another rank, with that rank, and ghosts with theirs. */
 typedef struct draft {
-    const domain_shares *shares;
-    const ghost_rings *rings;
+    domain_lists *lists;
     int rank;
     borders sent, received;
 } draft;
 
-static void note(borders *b, int rank, dem_index node)
+static dem_status open_list(borders *b, dem_index n)
 {
-    if (b->list != NULL) b->list[b->n] = (border){rank, node};
-    b->n++;
+    b->list = malloc(((size_t)n + 1) * sizeof *b->list);
+    CHECK_MEMORY(b->list);
+    return DEM_OK;
 }
 
-/* Of the ghosts of all ranks this one's, and those that are own nodes here. */
-static void list_borders(draft *d)
+/* The ghosts of this rank, and the own nodes that others have as ghosts. */
+static dem_status list_borders(draft *d)
 {
-    d->sent.n = d->received.n = 0;
-    for (dem_index k = 0; k < d->rings->n; k++) {
-        const ghost *g = &d->rings->list[k];
-        const int owner = d->shares->owner[g->node];
-        if (g->rank == d->rank) note(&d->received, owner, g->node);
-        if (owner == d->rank) note(&d->sent, g->rank, g->node);
+    const domain_lists *l = d->lists;
+    const dem_index *ghosts = l->ghosts.row + d->rank, *lent = l->lent.row + d->rank;
+    TRY(open_list(&d->received, ghosts[1] - ghosts[0]));
+    TRY(open_list(&d->sent, lent[1] - lent[0]));
+    for (dem_index k = ghosts[0]; k < ghosts[1]; k++) {
+        const dem_index node = l->rings.list[l->ghosts.list[k]].node;
+        d->received.list[d->received.n++] = (border){l->shares->owner[node], node};
     }
-}
-
-static bool is_integrated(const draft *d, dem_index i)
-{
-    return domain_shares_have(d->shares, d->rank, i);
-}
-
-/* `local` has the number in the domain of each node of the whole lattice; -1: it is not there. */
-static dem_status number_nodes(domain *d, const draft *from, dem_index *local)
-{
-    dem_index n_own = 0;
-    for (dem_index i = 0; i < d->n_whole; i++) {
-        local[i] = is_integrated(from, i) ? 0 : -1;
-        n_own += from->shares->owner[i] == from->rank;
+    for (dem_index k = lent[0]; k < lent[1]; k++) {
+        const ghost *g = &l->rings.list[l->lent.list[k]];
+        d->sent.list[d->sent.n++] = (border){g->rank, g->node};
     }
-    CHECK(n_own > 0, DEM_ERROR_MODEL, "rank %d has no node of its own", from->rank);
-    for (dem_index k = 0; k < from->received.n; k++) local[from->received.list[k].node] = 0;
-    for (dem_index i = 0; i < d->n_whole; i++)
-        if (local[i] == 0) local[i] = d->n_nodes++;
-    d->number = malloc((size_t)d->n_nodes * sizeof *d->number);
+    return DEM_OK;
+}
+
+/* `local` has the number in the domain of each node of the whole lattice afterwards. */
+static dem_status number_nodes(domain *d, const draft *from)
+{
+    domain_lists *l = from->lists;
+    const domain_shares *s = l->shares;
+    CHECK(l->own.row[from->rank] < l->own.row[from->rank + 1], DEM_ERROR_MODEL, "rank %d has no node of its own",
+          from->rank);
+    TRY(domain_lists_nodes(l, from->rank, &d->number, &d->n_nodes));
     d->is_own = malloc((size_t)d->n_nodes);
     d->is_ghost = malloc((size_t)d->n_nodes);
     d->is_common = malloc((size_t)d->n_nodes);
     d->is_outer = calloc((size_t)d->n_nodes, 1);
-    CHECK(d->number && d->is_own && d->is_ghost && d->is_common && d->is_outer, DEM_ERROR_MEMORY,
+    CHECK(d->is_own && d->is_ghost && d->is_common && d->is_outer, DEM_ERROR_MEMORY,
           "out of memory for a domain of %lld nodes", (long long)d->n_nodes);
-    for (dem_index i = 0; i < d->n_whole; i++) {
-        if (local[i] < 0) continue;
-        d->number[local[i]] = i;
-        d->is_own[local[i]] = from->shares->owner[i] == from->rank;
-        d->is_ghost[local[i]] = !is_integrated(from, i);
-        d->is_common[local[i]] = domain_shares_have_all(from->shares, i);
+    domain_lists_number(l, d->number, d->n_nodes);
+    for (dem_index i = 0; i < d->n_nodes; i++) {
+        d->is_own[i] = s->owner[d->number[i]] == from->rank;
+        d->is_ghost[i] = !domain_shares_have(s, from->rank, d->number[i]);
+        d->is_common[i] = domain_shares_have_all(s, d->number[i]);
     }
-    for (dem_index k = 0; k < from->rings->n; k++) {
-        const ghost *g = &from->rings->list[k];
-        if (g->rank == from->rank) d->is_outer[local[g->node]] = g->ring == from->rings->n_rings;
+    for (dem_index k = l->ghosts.row[from->rank]; k < l->ghosts.row[from->rank + 1]; k++) {
+        const ghost *g = &l->rings.list[l->ghosts.list[k]];
+        d->is_outer[l->local[g->node]] = g->ring == l->rings.n_rings;
     }
     return DEM_OK;
 }
@@ -107,48 +101,43 @@ static dem_status list_nodes(dem_index **out, const border *list, dem_index n, c
     return DEM_OK;
 }
 
-static dem_status list_neighbours(domain *d, const draft *from, const dem_index *local)
+static dem_status list_neighbours(domain *d, const draft *from)
 {
-    d->neighbours = calloc((size_t)from->shares->n_ranks, sizeof *d->neighbours);
+    const int n_ranks = from->lists->shares->n_ranks;
+    d->neighbours = calloc((size_t)n_ranks, sizeof *d->neighbours);
     CHECK_MEMORY(d->neighbours);
     dem_index p = 0, q = 0;
-    for (int rank = 0; rank < from->shares->n_ranks; rank++) {
+    for (int rank = 0; rank < n_ranks; rank++) {
         const dem_index n_sent = count_of(&from->sent, p, rank), n_received = count_of(&from->received, q, rank);
         if (n_sent == 0 && n_received == 0) continue;
         domain_neighbour *one = &d->neighbours[d->n_neighbours++];
         *one = (domain_neighbour){.rank = rank, .n_sent = n_sent, .n_received = n_received};
-        TRY(list_nodes(&one->sent, from->sent.list + p, n_sent, local));
-        TRY(list_nodes(&one->received, from->received.list + q, n_received, local));
+        TRY(list_nodes(&one->sent, from->sent.list + p, n_sent, from->lists->local));
+        TRY(list_nodes(&one->received, from->received.list + q, n_received, from->lists->local));
         p += n_sent;
         q += n_received;
     }
     return DEM_OK;
 }
 
-static dem_status fill(domain *d, draft *from, dem_index *local)
+static dem_status fill(domain *d, draft *from)
 {
     borders *const both[] = {&from->sent, &from->received};
-    list_borders(from);
-    for (int k = 0; k < 2; k++) both[k]->list = malloc(((size_t)both[k]->n + 1) * sizeof *both[k]->list);
-    CHECK(local && from->sent.list && from->received.list, DEM_ERROR_MEMORY, "out of memory for the domain of rank %d",
-          from->rank);
-    list_borders(from);
-    d->n_rings = from->rings->n_rings;
+    TRY(list_borders(from));
+    d->n_rings = from->lists->rings.n_rings;
     for (int k = 0; k < 2; k++) qsort(both[k]->list, (size_t)both[k]->n, sizeof *both[k]->list, compare);
-    TRY(number_nodes(d, from, local));
-    return list_neighbours(d, from, local);
+    TRY(number_nodes(d, from));
+    return list_neighbours(d, from);
 }
 
-dem_status domain_create_within(domain *out, const dem_lattice *whole, const domain_shares *shares,
-                                const ghost_rings *rings, int rank)
+dem_status domain_create_within(domain *out, domain_lists *lists, int rank)
 {
-    domain d = {.n_whole = whole->n_nodes};
-    draft from = {.shares = shares, .rings = rings, .rank = rank};
-    dem_index *local = malloc((size_t)whole->n_nodes * sizeof *local);
-    const dem_status status = fill(&d, &from, local);
-    free(local);
+    domain d = {.n_whole = lists->n_whole};
+    draft from = {.lists = lists, .rank = rank};
+    const dem_status status = fill(&d, &from);
     free(from.sent.list);
     free(from.received.list);
+    domain_lists_forget(lists, d.number, d.n_nodes);
     if (status == DEM_OK)
         *out = d;
     else
@@ -158,10 +147,10 @@ dem_status domain_create_within(domain *out, const dem_lattice *whole, const dom
 
 dem_status domain_create(domain *out, const dem_lattice *whole, const domain_shares *shares, int rank)
 {
-    ghost_rings rings = {0};
-    dem_status status = ghost_rings_find(&rings, whole, shares);
-    if (status == DEM_OK) status = domain_create_within(out, whole, shares, &rings, rank);
-    ghost_rings_free(&rings);
+    domain_lists lists;
+    dem_status status = domain_lists_create(&lists, whole, shares);
+    if (status == DEM_OK) status = domain_create_within(out, &lists, rank);
+    domain_lists_free(&lists);
     return status;
 }
 

@@ -10,7 +10,7 @@
 
 #include <dem/dem.h>
 
-#include "domain/ghost_rings.h"
+#include "domain/domain_lists.h"
 
 /** Another rank that has ghosts of own nodes, or own nodes that are ghosts here. */
 typedef struct domain_neighbour {
@@ -40,9 +40,8 @@ typedef struct domain {
  *  \return DEM_ERROR_MODEL if the rank owns no node, DEM_ERROR_MEMORY */
 dem_status domain_create(domain *out, const dem_lattice *whole, const domain_shares *shares, int rank);
 
-/** The same where the ghosts of all ranks are known. */
-dem_status domain_create_within(domain *out, const dem_lattice *whole, const domain_shares *shares,
-                                const ghost_rings *rings, int rank);
+/** The same where the lists of all ranks are known, in a time that does not depend on the whole. */
+dem_status domain_create_within(domain *out, domain_lists *lists, int rank);
 void domain_free(domain *d);
 
 /** The number in the domain of a node that is integrated here, of this number in the whole lattice; -1: it is not. NULL

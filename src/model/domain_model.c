@@ -29,67 +29,12 @@
 #include "base/sorted.h"
 #include "base/status.h"
 #include "domain/common_nodes.h"
-#include "domain/ghost_rings.h"
 #include "lattice/lattice.h"
 #include "lattice/lattice_cut.h"
+#include "lattice/node_rows.h"
 #include "model/breakable_nodes.h"
 #include "model/domain_message.h"
 #include "obstacle/obstacle_set.h"
-
-/* Which of the whole lattice is in the domain, whose lists of springs and triangles these are. */
-typedef struct places {
-    dem_index *node; /* [nodes of the whole] their numbers in the domain; -1: not there */
-    dem_index n_springs, n_triangles;
-    dem_index *spring, *triangle; /* [n] that are there, by their numbers in the whole, ascending */
-} places;
-
-/* Lists the tuples of which the domain has all corners, or without a list only counts them. */
-static dem_index list_tuples(const dem_index *corner, int arity, dem_index n, const dem_index *node, dem_index *list)
-{
-    dem_index kept = 0;
-    for (dem_index k = 0; k < n; k++) {
-        bool is_there = true;
-        for (int c = 0; c < arity; c++) is_there = is_there && node[corner[arity * k + c]] >= 0;
-        if (is_there && list != NULL) list[kept] = k;
-        kept += is_there;
-    }
-    return kept;
-}
-
-static dem_status find_places(places *p, domain *d, const dem_lattice *whole)
-{
-    p->node = lattice_zeros(whole->n_nodes, sizeof *p->node);
-    CHECK(p->node, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes", (long long)d->n_nodes);
-    for (dem_index i = 0; i < whole->n_nodes; i++) p->node[i] = -1;
-    for (dem_index i = 0; i < d->n_nodes; i++) p->node[d->number[i]] = i;
-    p->n_springs = list_tuples(whole->ends, 2, whole->n_springs, p->node, NULL);
-    p->n_triangles = list_tuples(whole->triangles, 3, whole->n_triangles, p->node, NULL);
-    p->spring = d->spring = lattice_zeros(p->n_springs, sizeof *p->spring);
-    p->triangle = d->triangle = lattice_zeros(p->n_triangles, sizeof *p->triangle);
-    CHECK(p->spring && p->triangle, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes",
-          (long long)d->n_nodes);
-    (void)list_tuples(whole->ends, 2, whole->n_springs, p->node, p->spring);
-    (void)list_tuples(whole->triangles, 3, whole->n_triangles, p->node, p->triangle);
-    return DEM_OK;
-}
-
-static dem_index spring_of(const places *p, dem_index number)
-{
-    return sorted_find(p->spring, p->n_springs, number);
-}
-
-static dem_index triangle_of(const places *p, dem_index number)
-{
-    return sorted_find(p->triangle, p->n_triangles, number);
-}
-
-static dem_status cut_lattice(dem_model *m, const dem_lattice *whole, const places *p)
-{
-    const lattice_cut list = {.n = {m->domain->n_nodes, p->n_springs, p->n_triangles},
-                              .numbers = {m->domain->number, p->spring, p->triangle},
-                              .node = p->node};
-    return lattice_cut_create(&m->lattice, whole, &list);
-}
 
 /* ---- what is found of the whole once ---- */
 
@@ -98,13 +43,18 @@ typedef struct whole_lattice {
     touching_bodies bodies;
     unsigned char *is_common; /* [n_nodes] */
     domain_shares shares;
-    ghost_rings rings; /* of all ranks */
+    domain_lists lists;           /* of the nodes of all ranks */
+    node_rows springs, triangles; /* at each node */
+    int32_t *place;               /* [n_nodes] of each node in the layout; NULL: its number */
 } whole_lattice;
 
 static void close_whole(whole_lattice *w)
 {
     touching_bodies_free(&w->bodies);
-    ghost_rings_free(&w->rings);
+    domain_lists_free(&w->lists);
+    node_rows_free(&w->springs);
+    node_rows_free(&w->triangles);
+    free(w->place);
     free(w->is_common);
 }
 
@@ -161,17 +111,34 @@ static domain_shares shares_of(const ranks *r, const dem_model *whole, const dom
 
 /* Where no use is known there are rings for steps of Verlet's method, so few that they are no burden to Fehlberg's
  * pair; else those that it has a use for. */
-static dem_status find_rings(whole_lattice *w, const ranks *r, const domain_model_shares *s)
+static dem_status find_lists(whole_lattice *w, const ranks *r, const domain_model_shares *s)
 {
     enum { PAIR_RINGS = 3, LEAST_STEPS = 4, MOST_STEPS = 8 };
     const ring_use both[] = {ring_use_of_steps(LEAST_STEPS, MOST_STEPS), ring_use_of_stages(PAIR_RINGS)};
     const ring_use *uses = s->use.most > 0 ? &s->use : both;
     const int n = s->use.most > 0 ? 1 : 2;
-    for (int k = 0; k < n && w->rings.n_rings <= 1; k++) {
-        ghost_rings_free(&w->rings);
+    for (int k = 0; k < n && w->lists.rings.n_rings <= 1; k++) {
+        domain_lists_free(&w->lists);
         w->shares = shares_of(r, w->model, s, uses[k], w->is_common);
-        TRY(ghost_rings_find(&w->rings, &w->model->lattice, &w->shares));
+        TRY(domain_lists_create(&w->lists, &w->model->lattice, &w->shares));
     }
+    return DEM_OK;
+}
+
+static dem_status list_elements(whole_lattice *w)
+{
+    const dem_lattice *l = &w->model->lattice;
+    TRY(node_rows_create(&w->springs, l->ends, 2, l->n_springs, l->n_nodes));
+    return node_rows_create(&w->triangles, l->triangles, 3, l->n_triangles, l->n_nodes);
+}
+
+static dem_status find_order(whole_lattice *w)
+{
+    const layout *l = &w->model->layout;
+    if (l->order == NULL) return DEM_OK;
+    w->place = malloc((size_t)l->n_nodes * sizeof *w->place);
+    CHECK_MEMORY(w->place);
+    for (dem_index q = 0; q < l->n_nodes; q++) w->place[l->order[q]] = (int32_t)q;
     return DEM_OK;
 }
 
@@ -183,10 +150,80 @@ static dem_status open_whole(whole_lattice *w, const ranks *r, const dem_model *
     w->is_common = lattice_zeros(model->lattice.n_nodes, sizeof *w->is_common);
     CHECK_MEMORY(w->is_common);
     TRY(find_common(model, shares->touching ? &w->bodies.boundary : NULL, shares->is_near, w->is_common));
-    return find_rings(w, r, shares);
+    TRY(find_lists(w, r, shares));
+    TRY(list_elements(w));
+    return find_order(w);
 }
 
 /* ---- what is cut ---- */
+
+/* Which of the whole lattice is in the domain, whose lists of springs and triangles these are. */
+typedef struct places {
+    const dem_index *node; /* [nodes of the whole] their numbers in the domain; -1: not there */
+    dem_index n_springs, n_triangles;
+    dem_index *spring, *triangle; /* [n] that are there, by their numbers in the whole, ascending */
+} places;
+
+/* Springs or triangles of the whole lattice. */
+typedef struct tuples {
+    const node_rows *rows; /* at each node */
+    int arity;
+    const dem_index *node; /* [n][arity] */
+} tuples;
+
+/* Lists those of which the domain has all nodes, each at the first of them, or without a list only counts them. */
+static dem_index list_tuples(const tuples *t, const domain *d, const dem_index *local, dem_index *list)
+{
+    dem_index n = 0;
+    for (dem_index i = 0; i < d->n_nodes; i++)
+        for (dem_index p = t->rows->row[d->number[i]]; p < t->rows->row[d->number[i] + 1]; p++) {
+            const dem_index *node = t->node + t->arity * t->rows->list[p];
+            bool is_there = true;
+            for (int c = 0; c < t->arity; c++) is_there = is_there && local[node[c]] >= i;
+            if (is_there && list != NULL) list[n] = t->rows->list[p];
+            n += is_there;
+        }
+    return n;
+}
+
+static dem_status find_tuples(dem_index **list, dem_index *n, const tuples *t, const domain *d, const dem_index *local)
+{
+    *n = list_tuples(t, d, local, NULL);
+    *list = malloc(((size_t)*n + 1) * sizeof **list);
+    CHECK(*list, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes", (long long)d->n_nodes);
+    (void)list_tuples(t, d, local, *list);
+    (void)sorted_make(*list, *n);
+    return DEM_OK;
+}
+
+static dem_status find_places(places *p, domain *d, const whole_lattice *w)
+{
+    const dem_lattice *l = &w->model->lattice;
+    p->node = w->lists.local;
+    TRY(find_tuples(&d->spring, &p->n_springs, &(tuples){&w->springs, 2, l->ends}, d, p->node));
+    p->spring = d->spring;
+    TRY(find_tuples(&d->triangle, &p->n_triangles, &(tuples){&w->triangles, 3, l->triangles}, d, p->node));
+    p->triangle = d->triangle;
+    return DEM_OK;
+}
+
+static dem_index spring_of(const places *p, dem_index number)
+{
+    return sorted_find(p->spring, p->n_springs, number);
+}
+
+static dem_index triangle_of(const places *p, dem_index number)
+{
+    return sorted_find(p->triangle, p->n_triangles, number);
+}
+
+static dem_status cut_lattice(dem_model *m, const dem_lattice *whole, const places *p)
+{
+    const lattice_cut list = {.n = {m->domain->n_nodes, p->n_springs, p->n_triangles},
+                              .numbers = {m->domain->number, p->spring, p->triangle},
+                              .node = p->node};
+    return lattice_cut_create(&m->lattice, whole, &list);
+}
 
 /* The sides of the whole's boundary whose triangles are in the domain.  \return how many there are */
 static dem_index cut_boundary(const mesh_boundary *whole, const places *p, mesh_boundary_edge *list)
@@ -258,17 +295,33 @@ static dem_status cut_nodes(dem_model *m, const dem_model *whole)
     return DEM_OK;
 }
 
+/* A node of the domain, and where the whole's layout has it. */
+typedef struct placed {
+    int32_t place, node;
+} placed;
+
+static int by_place(const void *a, const void *b)
+{
+    const placed *p = a, *q = b;
+    return (p->place > q->place) - (p->place < q->place);
+}
+
 /* Nodes stand in the order of the whole's layout, so that all ranks and a process alone see an element from the same of
  * its nodes, the lowest in this order: areas have other bits from another corner. */
-static dem_status cut_order(domain_cut *c, const layout *whole, const places *p)
+static dem_status cut_order(domain_cut *c, const whole_lattice *w)
 {
     const domain *d = c->model->domain;
-    dem_index n = 0;
-    if (whole->order == NULL) return DEM_OK;
-    c->order = malloc((size_t)d->n_nodes * sizeof *c->order);
-    CHECK_MEMORY(c->order);
-    for (dem_index q = 0; q < d->n_whole; q++)
-        if (p->node[whole->order[q]] >= 0) c->order[n++] = (int32_t)p->node[whole->order[q]];
+    const size_t n = (size_t)d->n_nodes;
+    if (w->place == NULL) return DEM_OK;
+    placed *list = malloc(n * sizeof *list);
+    c->order = malloc(n * sizeof *c->order);
+    if (list != NULL && c->order != NULL) {
+        for (dem_index i = 0; i < d->n_nodes; i++) list[i] = (placed){w->place[d->number[i]], (int32_t)i};
+        qsort(list, n, sizeof *list, by_place);
+        for (size_t q = 0; q < n; q++) c->order[q] = list[q].node;
+    }
+    free(list);
+    CHECK_MEMORY(list != NULL ? c->order : NULL);
     return DEM_OK;
 }
 
@@ -289,7 +342,7 @@ static dem_status cut_parts(domain_cut *c, const whole_lattice *w, const places 
     dem_model *m = c->model;
     const dem_model *whole = w->model;
     TRY(cut_lattice(m, &whole->lattice, p));
-    TRY(cut_order(c, &whole->layout, p));
+    TRY(cut_order(c, w));
     TRY(cut_touching(m, &w->bodies, p));
     TRY(rigid_bodies_cut(&m->rigid, &whole->rigid, p->node, m->lattice.n_nodes));
     TRY(cut_stress(m, &whole->stress, p));
@@ -298,17 +351,23 @@ static dem_status cut_parts(domain_cut *c, const whole_lattice *w, const places 
     return DEM_OK;
 }
 
+static dem_status cut_placed(domain_cut *c, const whole_lattice *w)
+{
+    places p = {0};
+    TRY(find_places(&p, c->model->domain, w));
+    return cut_parts(c, w, &p);
+}
+
 /* For a rank, which need not be this one. */
-static dem_status cut(domain_cut *c, const whole_lattice *w, int rank)
+static dem_status cut(domain_cut *c, whole_lattice *w, int rank)
 {
     dem_model *m = c->model;
-    places p = {0};
     m->domain = calloc(1, sizeof *m->domain);
     CHECK_MEMORY(m->domain);
-    TRY(domain_create_within(m->domain, &w->model->lattice, &w->shares, &w->rings, rank));
-    dem_status status = find_places(&p, m->domain, &w->model->lattice);
-    if (status == DEM_OK) status = cut_parts(c, w, &p);
-    free(p.node);
+    TRY(domain_create_within(m->domain, &w->lists, rank));
+    domain_lists_number(&w->lists, m->domain->number, m->domain->n_nodes);
+    const dem_status status = cut_placed(c, w);
+    domain_lists_forget(&w->lists, m->domain->number, m->domain->n_nodes);
     return status;
 }
 
@@ -387,7 +446,7 @@ dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model 
 /* ---- from the whole that rank 0 has ---- */
 
 /* What rank 0 has cut for another one ends as soon as it is sent. */
-static dem_status send_one(domain_cut *own, const ranks *r, const whole_lattice *w, int to)
+static dem_status send_one(domain_cut *own, const ranks *r, whole_lattice *w, int to)
 {
     domain_cut other = {0}, *const c = r->rank == 0 ? &other : own;
     const bool takes_part = r->rank == 0 || r->rank == to;
@@ -400,7 +459,7 @@ static dem_status send_one(domain_cut *own, const ranks *r, const whole_lattice 
 }
 
 /* One after the other, so that rank 0 has one domain at a time, and its own last. */
-static dem_status send_all(domain_cut *own, const ranks *r, const whole_lattice *w)
+static dem_status send_all(domain_cut *own, const ranks *r, whole_lattice *w)
 {
     for (int to = 1; to < r->size; to++) TRY(send_one(own, r, w, to));
     if (r->rank > 0) return DEM_OK;
