@@ -33,6 +33,21 @@ static inline dem_index sorted_make(dem_index *list, dem_index n)
     return kept;
 }
 
+/** Merges two such lists, whose common numbers come once.
+ *  \param[out] out  [n_a + n_b]  \return how many there are */
+static inline dem_index sorted_merge(dem_index *out, const dem_index *a, dem_index n_a, const dem_index *b,
+                                     dem_index n_b)
+{
+    dem_index n = 0, p = 0, q = 0;
+    while (p < n_a || q < n_b) {
+        const bool from_a = q == n_b || (p < n_a && a[p] <= b[q]), from_b = p == n_a || (q < n_b && b[q] <= a[p]);
+        out[n++] = from_a ? a[p] : b[q];
+        p += from_a;
+        q += from_b;
+    }
+    return n;
+}
+
 /** Where a number is in a list [n], which has each number once; -1: nowhere. */
 static inline dem_index sorted_find(const dem_index *list, dem_index n, dem_index number)
 {

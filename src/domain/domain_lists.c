@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/sorted.h"
 #include "base/status.h"
 
 /* ---- rows ---- */
@@ -85,19 +86,6 @@ void domain_lists_free(domain_lists *l)
 
 /* ---- nodes ---- */
 
-/* Merges two ascending lists, whose common numbers come once.  \return how many there are */
-static dem_index merge(dem_index *out, const dem_index *a, dem_index n_a, const dem_index *b, dem_index n_b)
-{
-    dem_index n = 0, p = 0, q = 0;
-    while (p < n_a || q < n_b) {
-        const bool from_a = q == n_b || (p < n_a && a[p] <= b[q]), from_b = p == n_a || (q < n_b && b[q] <= a[p]);
-        out[n++] = from_a ? a[p] : b[q];
-        p += from_a;
-        q += from_b;
-    }
-    return n;
-}
-
 dem_status domain_lists_nodes(const domain_lists *l, int rank, dem_index **node, dem_index *n)
 {
     const dem_index *own = l->own.list + l->own.row[rank], *ghosts = l->ghosts.list + l->ghosts.row[rank];
@@ -109,9 +97,9 @@ dem_status domain_lists_nodes(const domain_lists *l, int rank, dem_index **node,
     *node = malloc(most * sizeof **node);
     const bool has_room = integrated != NULL && numbers != NULL && *node != NULL;
     if (has_room) {
-        const dem_index n_integrated = merge(integrated, own, n_own, l->common, l->n_common);
+        const dem_index n_integrated = sorted_merge(integrated, own, n_own, l->common, l->n_common);
         for (dem_index k = 0; k < n_ghosts; k++) numbers[k] = l->rings.list[ghosts[k]].node;
-        *n = merge(*node, integrated, n_integrated, numbers, n_ghosts);
+        *n = sorted_merge(*node, integrated, n_integrated, numbers, n_ghosts);
     }
     free(integrated);
     free(numbers);

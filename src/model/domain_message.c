@@ -13,29 +13,27 @@
 
 /* The numbers of a cut. */
 typedef struct head {
-    domain domain;               /* without its arrays */
-    dem_index n[LATTICE_ITEMS];  /* of the lattice */
-    dem_index n_edges, n_bodies; /* of the boundary; bodies, of which each has its sums */
-    dem_index n_shares;          /* of springs in stresses */
+    domain domain;              /* without its arrays */
+    dem_index n[LATTICE_ITEMS]; /* of the lattice about it */
+    dem_index n_bodies;         /* of which each has its sums */
     dem_index n_rigid, n_rigid_nodes;
     bool edges_are_springs;
     double spacing, omega_max, mass;
 } head;
 
-static head head_of(const dem_model *m)
+static head head_of(const domain_cut *c)
 {
+    const dem_model *m = c->model;
     head h = {.domain = *m->domain,
-              .n = {m->lattice.n_nodes, m->lattice.n_springs, m->lattice.n_triangles},
-              .n_edges = m->touching->boundary.n,
+              .n = {c->around.n_nodes, c->around.n_springs, c->around.n_triangles},
               .n_bodies = m->touching->n_bodies,
-              .n_shares = m->stress.rows->row[m->lattice.n_nodes],
               .n_rigid = m->rigid.n,
               .n_rigid_nodes = m->rigid.n_nodes,
               .edges_are_springs = m->edges_are_springs,
               .spacing = m->spacing,
               .omega_max = m->omega_max,
               .mass = m->mass};
-    h.domain.number = h.domain.spring = h.domain.triangle = NULL;
+    h.domain.number = h.domain.spring = NULL;
     h.domain.is_own = h.domain.is_ghost = h.domain.is_common = h.domain.is_outer = NULL;
     h.domain.neighbours = NULL;
     return h;
@@ -46,21 +44,19 @@ static dem_status make_parts(dem_model *m, const head *h)
     m->domain = calloc(1, sizeof *m->domain);
     m->touching = calloc(1, sizeof *m->touching);
     CHECK(m->domain && m->touching, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes",
-          (long long)h->n[LATTICE_NODES]);
-    return stress_create_empty(&m->stress, &m->couplings);
+          (long long)h->domain.n_nodes);
+    return DEM_OK;
 }
 
 /* There are no neighbours before there is a list of them. */
-static void take_head(dem_model *m, const head *h)
+static void take_head(domain_cut *c, const head *h)
 {
+    dem_model *m = c->model;
     *m->domain = h->domain;
     m->domain->n_neighbours = 0;
-    m->lattice = dem_lattice_empty();
-    m->lattice.n_nodes = h->n[LATTICE_NODES];
-    m->lattice.n_springs = h->n[LATTICE_SPRINGS];
-    m->lattice.n_triangles = h->n[LATTICE_TRIANGLES];
-    m->touching->boundary.lattice = &m->lattice;
-    m->touching->boundary.n = h->n_edges;
+    c->around.n_nodes = h->n[LATTICE_NODES];
+    c->around.n_springs = h->n[LATTICE_SPRINGS];
+    c->around.n_triangles = h->n[LATTICE_TRIANGLES];
     m->touching->domain = m->domain;
     m->touching->n_bodies = m->n_bodies = h->n_bodies;
     m->rigid.n = h->n_rigid;
@@ -71,10 +67,10 @@ static void take_head(dem_model *m, const head *h)
     m->mass = h->mass;
 }
 
-static dem_status prepare(dem_model *m, const head *h)
+static dem_status prepare(domain_cut *c, const head *h)
 {
-    TRY(make_parts(m, h));
-    take_head(m, h);
+    TRY(make_parts(c->model, h));
+    take_head(c, h);
     return DEM_OK;
 }
 
@@ -91,7 +87,6 @@ static void list_domain(parcel *p, domain *d, const head *h)
     const size_t n = (size_t)d->n_nodes;
     parcel_add(p, &d->number, n * sizeof *d->number);
     parcel_add(p, &d->spring, (size_t)h->n[LATTICE_SPRINGS] * sizeof *d->spring);
-    parcel_add(p, &d->triangle, (size_t)h->n[LATTICE_TRIANGLES] * sizeof *d->triangle);
     parcel_add(p, &d->is_own, n);
     parcel_add(p, &d->is_ghost, n);
     parcel_add(p, &d->is_common, n);
@@ -109,33 +104,16 @@ static void list_rigid(parcel *p, rigid_bodies *r, dem_index n_nodes)
     parcel_add(p, &r->shapes, 2 * n * sizeof *r->shapes);
 }
 
-static void list_touching(parcel *p, touching_bodies *o, dem_index n_nodes)
-{
-    parcel_add(p, &o->boundary.outer, (size_t)n_nodes);
-    parcel_add(p, &o->boundary.list, (size_t)o->boundary.n * sizeof *o->boundary.list);
-    parcel_add(p, &o->bodies, (size_t)o->n_bodies * sizeof *o->bodies);
-}
-
-static void list_stress(parcel *p, stress_map *s, const head *h)
-{
-    const size_t n = (size_t)h->n[LATTICE_NODES], shares = (size_t)h->n_shares;
-    stress_rows *rows = s->rows;
-    parcel_add(p, &s->volume, n * sizeof *s->volume);
-    parcel_add(p, &rows->row, (n + 1) * sizeof *rows->row);
-    parcel_add(p, &rows->spring, shares * sizeof *rows->spring);
-    parcel_add(p, &rows->share, shares * sizeof *rows->share);
-}
-
 static void list_arrays(parcel *p, domain_cut *c, const head *h)
 {
     dem_model *m = c->model;
-    const size_t n = (size_t)h->n[LATTICE_NODES];
-    list_lattice(p, &m->lattice);
+    const size_t n = (size_t)h->domain.n_nodes;
+    list_lattice(p, &c->around);
     list_domain(p, m->domain, h);
-    list_touching(p, m->touching, m->lattice.n_nodes);
-    list_rigid(p, &m->rigid, m->lattice.n_nodes);
-    list_stress(p, &m->stress, h);
-    parcel_add(p, &m->inverse_mass, n * sizeof *m->inverse_mass);
+    list_rigid(p, &m->rigid, h->domain.n_nodes);
+    parcel_add(p, &m->touching->bodies, (size_t)h->n_bodies * sizeof *m->touching->bodies);
+    parcel_add(p, &c->place, n * sizeof *c->place);
+    parcel_add(p, &c->triangle, (size_t)h->n[LATTICE_TRIANGLES] * sizeof *c->triangle);
     parcel_add(p, &c->order, n * sizeof *c->order);
 }
 
@@ -170,8 +148,8 @@ static dem_status send_arrays(const ranks *r, int to, domain_cut *c, const head 
 dem_status domain_message_send(const ranks *r, int to, domain_cut *c)
 {
     head h = {0};
-    if (r->rank == 0) h = head_of(c->model);
+    if (r->rank == 0) h = head_of(c);
     parcel_pass(r, to, &h, sizeof h);
-    TRY(reduce_status(r, r->rank == to ? prepare(c->model, &h) : DEM_OK, 0.0));
+    TRY(reduce_status(r, r->rank == to ? prepare(c, &h) : DEM_OK, 0.0));
     return send_arrays(r, to, c, &h);
 }

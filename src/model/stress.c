@@ -170,15 +170,6 @@ dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const spr
     return status;
 }
 
-dem_status stress_create_empty(stress_map *out, const couplings *c)
-{
-    stress_map map = {.couplings = c};
-    TRY(create_rows(&map, NULL, NULL));
-    map.rows->made.is_made = true;
-    *out = map;
-    return DEM_OK;
-}
-
 static dem_status allocate(stress_map *map, dem_index n_nodes, dem_index n_shares)
 {
     map->volume = lattice_zeros(n_nodes, sizeof *map->volume);
@@ -190,8 +181,9 @@ static dem_status allocate(stress_map *map, dem_index n_nodes, dem_index n_share
 
 dem_status stress_create(stress_map *out, dem_index n_nodes, dem_index n_shares, const couplings *c)
 {
-    stress_map map;
-    TRY(stress_create_empty(&map, c));
+    stress_map map = {.couplings = c};
+    TRY(create_rows(&map, NULL, NULL));
+    map.rows->made.is_made = true;
     const dem_status status = allocate(&map, n_nodes, n_shares);
     if (status == DEM_OK)
         *out = map;

@@ -35,9 +35,6 @@ void stress_free(stress_map *map);
  *  \return DEM_ERROR_MEMORY. Free with stress_free(). */
 dem_status stress_create(stress_map *out, dem_index n_nodes, dem_index n_shares, const couplings *c);
 
-/** The same without any array: the caller puts them in place, from malloc().  \return DEM_ERROR_MEMORY */
-dem_status stress_create_empty(stress_map *out, const couplings *c);
-
 /** Makes the rows unless they are there; from several threads at once, too.  \return DEM_ERROR_MEMORY;
  *  DEM_ERROR_MODEL for 2^31 shares */
 dem_status stress_prepare(const stress_map *map);

@@ -25,6 +25,9 @@ typedef struct touching_bodies {
 /** Finds them in a whole lattice with bodies, which is borrowed. Free with touching_bodies_free().
  *  \return DEM_ERROR_MEMORY */
 dem_status touching_bodies_create(touching_bodies *out, const dem_lattice *lattice);
+
+/** The same without the boundary. */
+dem_status touching_bodies_sum_up(touching_bodies *out, const dem_lattice *lattice);
 void touching_bodies_free(touching_bodies *o);
 
 /** The number in the whole lattice of node i of the lattice with these bodies; NULL stands for the whole. */

@@ -109,13 +109,12 @@ static void assert_same_model(const dem_model *m, const dem_model *whole, const 
     assert_int_equal(m->n_bodies, whole->n_bodies);
 }
 
-TEST(own_nodes_have_what_they_have_in_the_whole)
+/* However domains are made. */
+static void check_own_nodes(const dem_lattice *l, const int32_t *owner)
 {
-    CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
-    CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
-    CLEANUP(free_model) dem_model *whole = support_model(&l, NULL, 0);
-    CLEANUP(free_memory) double *x = malloc(2 * (size_t)l.n_nodes * sizeof *x);
-    for (dem_index k = 0; k < 2 * l.n_nodes; k++) x[k] = l.x[k] * (1.0 + 0.01 * sin((double)k));
+    CLEANUP(free_model) dem_model *whole = support_model(l, NULL, 0);
+    CLEANUP(free_memory) double *x = malloc(2 * (size_t)l->n_nodes * sizeof *x);
+    for (dem_index k = 0; k < 2 * l->n_nodes; k++) x[k] = l->x[k] * (1.0 + 0.01 * sin((double)k));
     assert_ok(stress_prepare(&whole->stress));
     for (int is_sent = 0; is_sent < 2; is_sent++) {
         shared s = {.whole = whole, .owner = owner, .is_sent = is_sent};
@@ -126,6 +125,29 @@ TEST(own_nodes_have_what_they_have_in_the_whole)
         }
         destroy(&s);
     }
+}
+
+TEST(own_nodes_have_what_they_have_in_the_whole)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+    CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
+    check_own_nodes(&l, owner);
+    for (dem_index i = 0; i < l.n_nodes; i++) owner[i] = (int32_t)(7 * i % N_RANKS);
+    check_own_nodes(&l, owner);
+}
+
+/* The triangles of a cell share the spring across it, which is a side of neither. */
+TEST(own_nodes_have_what_they_have_in_a_whole_of_squares)
+{
+    const dem_material rubber =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
+    assert_ok(dem_lattice_squares(&l, 0.05, 0.08, 5e-3));
+    assert_ok(dem_lattice_assemble(&l, &rubber));
+    CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
+    check_own_nodes(&l, owner);
+    for (dem_index i = 0; i < l.n_nodes; i++) owner[i] = (int32_t)(7 * i % N_RANKS);
+    check_own_nodes(&l, owner);
 }
 
 static bool same_neighbour(const domain_neighbour *a, const domain_neighbour *b)

@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Boundary and stresses are found in the lattice about the domain, as a side of a triangle of the domain may have its
+ * other triangle outside of it; all else in the lattice of the domain, as any model is compiled. */
+#include "model/domain_compile.h"
+
+#include <stdlib.h>
+
+#include "base/status.h"
+#include "lattice/lattice.h"
+#include "model/breakable_nodes.h"
+#include "obstacle/obstacle_set.h"
+
+/* The numbers that nodes and triangles about the domain have in it; -1: they are beside it. */
+typedef struct numbers {
+    dem_index *node, *triangle;
+} numbers;
+
+static void free_numbers(numbers *q)
+{
+    free(q->node);
+    free(q->triangle);
+}
+
+static dem_status find_numbers(numbers *q, const domain_cut *c)
+{
+    const dem_lattice *l = &c->around;
+    dem_index n = 0;
+    q->node = lattice_zeros(l->n_nodes, sizeof *q->node);
+    q->triangle = lattice_zeros(l->n_triangles, sizeof *q->triangle);
+    CHECK(q->node && q->triangle, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes", (long long)l->n_nodes);
+    for (dem_index i = 0; i < l->n_nodes; i++) q->node[i] = -1;
+    for (dem_index i = 0; i < c->model->domain->n_nodes; i++) q->node[c->place[i]] = i;
+    for (dem_index k = 0; k < l->n_triangles; k++) {
+        const dem_index *corner = &l->triangles[3 * k];
+        const bool is_there = q->node[corner[0]] >= 0 && q->node[corner[1]] >= 0 && q->node[corner[2]] >= 0;
+        q->triangle[k] = is_there ? n++ : -1;
+    }
+    return DEM_OK;
+}
+
+/* The sides of a boundary whose triangles are in the domain.  \return how many there are */
+static dem_index list_sides(const mesh_boundary *around, const numbers *q, mesh_boundary_edge *list)
+{
+    dem_index n = 0;
+    for (dem_index k = 0; k < around->n; k++) {
+        const mesh_boundary_edge *e = &around->list[k];
+        if (q->triangle[e->triangle] < 0) continue;
+        if (list != NULL)
+            list[n] = (mesh_boundary_edge){q->node[e->lower], q->node[e->upper], q->triangle[e->triangle]};
+        n++;
+    }
+    return n;
+}
+
+/* A side that the lattice about the domain has but once is on the boundary if one of its ends is in the domain, as all
+ * triangles of that end are there. Where bodies touch each other the boundary has all sides of the whole. */
+static dem_status cut_boundary(mesh_boundary *out, const mesh_boundary *around, const numbers *q, const domain_cut *c)
+{
+    const domain *d = c->model->domain;
+    out->lattice = &c->model->lattice;
+    out->n = list_sides(around, q, NULL);
+    out->list = malloc(((size_t)out->n + 1) * sizeof *out->list);
+    out->outer = calloc((size_t)d->n_nodes + 1, 1);
+    CHECK(out->list && out->outer, DEM_ERROR_MEMORY, "out of memory for %lld boundary edges", (long long)out->n);
+    (void)list_sides(around, q, out->list);
+    for (dem_index k = 0; k < around->n; k++) {
+        const dem_index i = q->node[around->list[k].lower], j = q->node[around->list[k].upper];
+        if (i >= 0) out->outer[i] = 1;
+        if (j >= 0) out->outer[j] = 1;
+    }
+    return DEM_OK;
+}
+
+static dem_status compile_boundary(const domain_cut *c, const numbers *q)
+{
+    mesh_boundary around;
+    TRY(mesh_boundary_create(&around, &c->around, NULL));
+    const dem_status status = cut_boundary(&c->model->touching->boundary, &around, q, c);
+    mesh_boundary_free(&around);
+    return status;
+}
+
+/* The rows of nodes that are integrated, of which common ones may decide what breaks; those of ghosts are empty. Springs
+ * about the domain are those of the domain. */
+static dem_status cut_stress(dem_model *m, const stress_map *around, const dem_index *place)
+{
+    const domain *d = m->domain;
+    const stress_rows *from = around->rows;
+    dem_index n = 0;
+    for (dem_index i = 0; i < d->n_nodes; i++)
+        if (!d->is_ghost[i]) n += from->row[place[i] + 1] - from->row[place[i]];
+    TRY(stress_create(&m->stress, d->n_nodes, n, &m->couplings));
+    stress_rows *to = m->stress.rows;
+    n = 0;
+    for (dem_index i = 0; i < d->n_nodes; i++) {
+        m->stress.volume[i] = around->volume[place[i]];
+        for (dem_index p = from->row[place[i]]; !d->is_ghost[i] && p < from->row[place[i] + 1]; p++) {
+            to->spring[n] = from->spring[p];
+            to->share[n++] = from->share[p];
+        }
+        to->row[i + 1] = (int32_t)n;
+    }
+    return DEM_OK;
+}
+
+static dem_status compile_stress(const domain_cut *c)
+{
+    springs all = {0};
+    stress_map around = {0};
+    TRY(springs_compile(&all, &c->around));
+    dem_status status = stress_compile(&around, &c->around, &all, &c->model->couplings);
+    if (status == DEM_OK) status = stress_prepare(&around);
+    if (status == DEM_OK) status = cut_stress(c->model, &around, c->place);
+    stress_free(&around);
+    springs_free(&all);
+    return status;
+}
+
+/* In the place of the lattice about the domain, which ends. */
+static dem_status take_lattice(domain_cut *c, const numbers *q)
+{
+    dem_lattice *l = &c->around;
+    const dem_index n_nodes = l->n_nodes, n_triangles = l->n_triangles;
+    bool *keep = lattice_zeros(n_nodes, sizeof *keep);
+    CHECK_MEMORY(keep);
+    for (dem_index i = 0; i < n_nodes; i++) keep[i] = q->node[i] >= 0;
+    const dem_status status = dem_lattice_select(l, keep);
+    free(keep);
+    TRY(status);
+    for (dem_index k = 0; k < n_triangles; k++)
+        if (q->triangle[k] >= 0) c->triangle[q->triangle[k]] = c->triangle[k];
+    c->model->domain->triangle = c->triangle;
+    c->model->lattice = *l;
+    c->triangle = NULL;
+    *l = dem_lattice_empty();
+    return DEM_OK;
+}
+
+static dem_status compile_nodes(dem_model *m)
+{
+    const domain *d = m->domain;
+    const dem_lattice *l = &m->lattice;
+    m->inverse_mass = lattice_zeros(d->n_nodes, sizeof *m->inverse_mass);
+    CHECK_MEMORY(m->inverse_mass);
+    for (dem_index i = 0; i < d->n_nodes; i++)
+        m->inverse_mass[i] = d->is_outer[i] || (l->flags[i] & DEM_NODE_FIXED) ? 0.0 : 1.0 / l->mass[i];
+    return DEM_OK;
+}
+
+static dem_status compile_cut(domain_cut *c)
+{
+    numbers q = {0};
+    dem_status status = find_numbers(&q, c);
+    if (status == DEM_OK) status = compile_boundary(c, &q);
+    if (status == DEM_OK) status = compile_stress(c);
+    if (status == DEM_OK) status = take_lattice(c, &q);
+    free_numbers(&q);
+    return status == DEM_OK ? compile_nodes(c->model) : status;
+}
+
+/* The boundary is kept where bodies touch each other, and where something may break. */
+static dem_status compile_surface(dem_model *m, bool touching)
+{
+    m->touching->has_all = touching;
+    TRY(surface_compile_boundary(&m->surface, &m->lattice, &m->touching->boundary, SURFACE_TOUCHING));
+    if (touching || breakable_lattice(&m->lattice)) return DEM_OK;
+    touching_bodies_free(m->touching);
+    free(m->touching);
+    m->touching = NULL;
+    return DEM_OK;
+}
+
+dem_status domain_compile(domain_cut *c, const dem_obstacle *obstacles, dem_index n_obstacles, bool touching)
+{
+    dem_model *m = c->model;
+    TRY(compile_cut(c));
+    TRY(springs_compile(&m->springs, &m->lattice));
+    TRY(csr_view_create(&m->csr, &m->springs));
+    TRY(triangles_compile(&m->triangles, &m->lattice));
+    TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
+    TRY(layout_compile_part(&m->layout, &m->springs, &m->triangles, &m->couplings, c->order));
+    TRY(compile_surface(m, touching));
+    return obstacles_compile(&m->obstacles, obstacles, n_obstacles);
+}

@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "model/domain_cut.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/sorted.h"
+#include "base/status.h"
+#include "lattice/lattice_cut.h"
+
+/* ---- springs and triangles ---- */
+
+/* Springs or triangles of the whole lattice. */
+typedef struct tuples {
+    const node_rows *rows; /* at each node */
+    int arity;
+    const dem_index *node; /* [n][arity] */
+    bool entire;           /* whether all of their nodes have to be in the domain, or any */
+} tuples;
+
+/* Lists those at the nodes of a domain, each at the first of them, or without a list only counts them. */
+static dem_index list_tuples(const tuples *t, const domain *d, const dem_index *local, dem_index *list)
+{
+    dem_index n = 0;
+    for (dem_index i = 0; i < d->n_nodes; i++)
+        for (dem_index p = t->rows->row[d->number[i]]; p < t->rows->row[d->number[i] + 1]; p++) {
+            const dem_index *node = t->node + t->arity * t->rows->list[p];
+            bool is_first = true;
+            for (int c = 0; c < t->arity; c++)
+                is_first = is_first && (local[node[c]] >= i || (local[node[c]] < 0 && !t->entire));
+            if (is_first && list != NULL) list[n] = t->rows->list[p];
+            n += is_first;
+        }
+    return n;
+}
+
+static dem_status find_tuples(dem_index **list, dem_index *n, const tuples *t, const domain *d, const dem_index *local)
+{
+    *n = list_tuples(t, d, local, NULL);
+    *list = malloc(((size_t)*n + 1) * sizeof **list);
+    CHECK(*list, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes", (long long)d->n_nodes);
+    (void)list_tuples(t, d, local, *list);
+    (void)sorted_make(*list, *n);
+    return DEM_OK;
+}
+
+/* ---- nodes ---- */
+
+/* The lattice about a domain, by numbers of the whole. */
+typedef struct draft {
+    dem_index n[LATTICE_ITEMS];
+    dem_index *node; /* [n] ascending, as those of springs and triangles in the cut */
+} draft;
+
+/* The corners of triangles that are not in the domain, ascending: each is marked when it is met first. */
+static dem_index list_corners(const domain_cut *c, const draft *s, const dem_lattice *whole, dem_index *local,
+                              dem_index *list)
+{
+    dem_index n = 0;
+    for (dem_index k = 0; k < 3 * s->n[LATTICE_TRIANGLES]; k++) {
+        const dem_index node = whole->triangles[3 * c->triangle[k / 3] + k % 3];
+        if (local[node] >= 0) continue;
+        local[node] = 0;
+        list[n++] = node;
+    }
+    return sorted_make(list, n);
+}
+
+/* In the domain and beside it. Afterwards `local` has their numbers. */
+static dem_status find_nodes(draft *s, const domain_cut *c, whole_lattice *w)
+{
+    const domain *d = c->model->domain;
+    const size_t most = 3 * (size_t)s->n[LATTICE_TRIANGLES] + 1;
+    dem_index *beside = malloc(most * sizeof *beside), n_beside = 0;
+    if (beside != NULL) n_beside = list_corners(c, s, &w->model->lattice, w->lists.local, beside);
+    s->node = malloc(((size_t)(d->n_nodes + n_beside) + 1) * sizeof *s->node);
+    if (beside != NULL && s->node != NULL)
+        s->n[LATTICE_NODES] = sorted_merge(s->node, d->number, d->n_nodes, beside, n_beside);
+    free(beside);
+    CHECK(s->n[LATTICE_NODES] > 0, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes", (long long)d->n_nodes);
+    domain_lists_number(&w->lists, s->node, s->n[LATTICE_NODES]);
+    return DEM_OK;
+}
+
+static dem_status cut_lattice(domain_cut *c, const draft *s, const whole_lattice *w)
+{
+    const domain *d = c->model->domain;
+    const lattice_cut list = {.n = {s->n[LATTICE_NODES], s->n[LATTICE_SPRINGS], s->n[LATTICE_TRIANGLES]},
+                              .numbers = {s->node, d->spring, c->triangle},
+                              .node = w->lists.local};
+    c->place = malloc((size_t)d->n_nodes * sizeof *c->place);
+    CHECK_MEMORY(c->place);
+    for (dem_index i = 0; i < d->n_nodes; i++) c->place[i] = w->lists.local[d->number[i]];
+    return lattice_cut_create(&c->around, &w->model->lattice, &list);
+}
+
+/* ---- what is known of the whole alone ---- */
+
+/* A node of the domain, and where the whole's layout has it. */
+typedef struct placed {
+    int32_t place, node;
+} placed;
+
+static int by_place(const void *a, const void *b)
+{
+    const placed *p = a, *q = b;
+    return (p->place > q->place) - (p->place < q->place);
+}
+
+/* Nodes stand in the order of the whole's layout, so that all ranks and a process alone see an element from the same of
+ * its nodes, the lowest in this order: areas have other bits from another corner. */
+static dem_status cut_order(domain_cut *c, const whole_lattice *w)
+{
+    const domain *d = c->model->domain;
+    const size_t n = (size_t)d->n_nodes;
+    if (w->place == NULL) return DEM_OK;
+    placed *list = malloc(n * sizeof *list);
+    c->order = malloc(n * sizeof *c->order);
+    if (list != NULL && c->order != NULL) {
+        for (dem_index i = 0; i < d->n_nodes; i++) list[i] = (placed){w->place[d->number[i]], (int32_t)i};
+        qsort(list, n, sizeof *list, by_place);
+        for (size_t q = 0; q < n; q++) c->order[q] = list[q].node;
+    }
+    free(list);
+    CHECK_MEMORY(list != NULL ? c->order : NULL);
+    return DEM_OK;
+}
+
+static void take_scales(dem_model *m, const dem_model *whole)
+{
+    m->domain->n_springs = whole->lattice.n_springs;
+    m->domain->n_triangles = whole->lattice.n_triangles;
+    m->domain->n_surface_nodes = whole->surface.n_nodes;
+    m->edges_are_springs = whole->edges_are_springs;
+    m->n_bodies = whole->n_bodies;
+    m->spacing = whole->spacing;
+    m->omega_max = whole->omega_max;
+    m->mass = whole->mass;
+}
+
+static dem_status cut_bodies(dem_model *m, const touching_bodies *whole)
+{
+    touching_bodies *o = m->touching = calloc(1, sizeof *o);
+    CHECK_MEMORY(o);
+    o->domain = m->domain;
+    o->n_bodies = whole->n_bodies;
+    o->bodies = malloc(((size_t)o->n_bodies + 1) * sizeof *o->bodies);
+    CHECK_MEMORY(o->bodies);
+    memcpy(o->bodies, whole->bodies, (size_t)o->n_bodies * sizeof *o->bodies);
+    return DEM_OK;
+}
+
+/* ---- public ---- */
+
+dem_status domain_cut_open(domain_cut *out)
+{
+    *out = (domain_cut){.model = calloc(1, sizeof *out->model), .around = dem_lattice_empty()};
+    CHECK_MEMORY(out->model);
+    return DEM_OK;
+}
+
+void domain_cut_close(domain_cut *c, bool keeps_model)
+{
+    if (c->model == NULL) return;
+    dem_lattice_free(&c->around);
+    free(c->place);
+    free(c->triangle);
+    free(c->order);
+    if (!keeps_model) dem_model_destroy(c->model);
+    *c = (domain_cut){0};
+}
+
+/* While `local` has the numbers of the domain. */
+static dem_status find_elements(domain_cut *c, draft *s, const whole_lattice *w)
+{
+    const dem_lattice *l = &w->model->lattice;
+    domain *d = c->model->domain;
+    const dem_index *local = w->lists.local;
+    TRY(rigid_bodies_cut(&c->model->rigid, &w->model->rigid, local, d->n_nodes));
+    TRY(find_tuples(&d->spring, &s->n[LATTICE_SPRINGS], &(tuples){&w->springs, 2, l->ends, true}, d, local));
+    return find_tuples(&c->triangle, &s->n[LATTICE_TRIANGLES], &(tuples){&w->triangles, 3, l->triangles, false}, d,
+                       local);
+}
+
+static dem_status fill(domain_cut *c, draft *s, whole_lattice *w)
+{
+    TRY(find_elements(c, s, w));
+    TRY(find_nodes(s, c, w));
+    TRY(cut_lattice(c, s, w));
+    TRY(cut_order(c, w));
+    TRY(cut_bodies(c->model, &w->bodies));
+    take_scales(c->model, w->model);
+    return DEM_OK;
+}
+
+dem_status domain_cut_fill(domain_cut *out, whole_lattice *whole, int rank)
+{
+    domain *d = out->model->domain = calloc(1, sizeof *d);
+    draft s = {0};
+    CHECK_MEMORY(d);
+    TRY(domain_create_within(d, &whole->lists, rank));
+    domain_lists_number(&whole->lists, d->number, d->n_nodes);
+    const dem_status status = fill(out, &s, whole);
+    domain_lists_forget(&whole->lists, d->number, d->n_nodes);
+    domain_lists_forget(&whole->lists, s.node, s.n[LATTICE_NODES]);
+    free(s.node);
+    return status;
+}

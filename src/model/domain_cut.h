@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a rank compiles the model of its domain from (model/domain_compile.h): the lattice about its nodes, which has
+ * all that the domain depends on, and what is known of the whole alone. It is cut from the whole by the rank itself, or
+ * by rank 0, which sends it (model/domain_message.h). */
+#ifndef DEM_MODEL_DOMAIN_CUT_H
+#define DEM_MODEL_DOMAIN_CUT_H
+
+#include "domain/domain_lists.h"
+#include "lattice/node_rows.h"
+#include "model/model.h"
+
+/** What is found of the whole once, for the cuts of all ranks. */
+typedef struct whole_lattice {
+    const dem_model *model;
+    touching_bodies bodies;   /* sums over them */
+    unsigned char *is_common; /* [n_nodes] */
+    domain_shares shares;
+    domain_lists lists;           /* of the nodes of all ranks */
+    node_rows springs, triangles; /* at each node */
+    int32_t *place;               /* [n_nodes] of each node in the layout; NULL: its number */
+} whole_lattice;
+
+/** The lattice about a domain has the triangles of which any corner is in the domain, with all of their corners: so of
+ *  each node of the domain all triangles are there, and what is beside their sides. Springs are those that join nodes
+ *  of the domain. */
+typedef struct domain_cut {
+    dem_model
+        *model; /* the domain but for its triangles, rigid bodies, sums over bodies in `touching`, scales; no more,
+                         and on a rank that waits for it nothing but zeros */
+    dem_lattice around;
+    dem_index *place;    /* [nodes of the domain] their numbers in `around`, ascending */
+    dem_index *triangle; /* [triangles of `around`] their numbers in the whole, ascending */
+    int32_t *order;      /* [nodes of the domain] that at each place of the layout; NULL: places are numbers */
+} domain_cut;
+
+/** An empty one, with a model. End with domain_cut_close().  \return DEM_ERROR_MEMORY */
+dem_status domain_cut_open(domain_cut *out);
+
+/** Cuts it for a rank, which need not be this one, in a time that does not depend on the whole.
+ *  \param out  an empty one  \return DEM_ERROR_MODEL if the rank owns no node, DEM_ERROR_MEMORY */
+dem_status domain_cut_fill(domain_cut *out, whole_lattice *whole, int rank);
+
+/** Ends it, but for the model, where that is wanted; one that is all zeros, too. */
+void domain_cut_close(domain_cut *c, bool keeps_model);
+
+#endif
