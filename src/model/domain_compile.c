@@ -80,8 +80,8 @@ static dem_status compile_boundary(const domain_cut *c, const numbers *q)
     return status;
 }
 
-/* The rows of nodes that are integrated, of which common ones may decide what breaks; those of ghosts are empty. Springs
- * about the domain are those of the domain. */
+/* The rows of nodes that are integrated, of which common ones may decide what breaks; those of ghosts are empty.
+ * Springs about the domain are those of the domain. */
 static dem_status cut_stress(dem_model *m, const stress_map *around, const dem_index *place)
 {
     const domain *d = m->domain;
