@@ -4,6 +4,9 @@
 
 #include <dlfcn.h>
 #include <stdio.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "outcome.h"
 
@@ -25,10 +28,21 @@ static void end_all(void *group)
     g->abort(EXIT_MEMORY);
 }
 
+/* What set-up has freed is to be free for others on the machine, and for messages: left to itself the C library keeps
+ * arrays of up to 32 MB, in holes that others do not fit into. */
+static void keep_no_freed_arrays(void)
+{
+#ifdef __GLIBC__
+    enum { KEPT = 1 << 20 }; /* bytes of the largest that are kept */
+    (void)mallopt(M_MMAP_THRESHOLD, KEPT);
+#endif
+}
+
 bool rank_group_begin(rank_group *g, const host *h, char why[RANK_GROUP_REASON])
 {
     void *(*begin)(int *rank, int *size, volatile sig_atomic_t *const *requests, void (*lacks_memory)(void *program),
                    void *program) = NULL;
+    keep_no_freed_arrays();
     *g = (rank_group){.host = h, .library = dlopen(library, RTLD_NOW | RTLD_GLOBAL)};
     if (g->library == NULL || !find(g, "dem_private_program_begin", (void *)&begin) ||
         !find(g, "dem_private_program_lead", (void *)&g->lead) ||
