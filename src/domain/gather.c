@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Each rank sends a row for each own node to rank 0, behind the numbers of these nodes. Rank 0 asks first how many
- * there are. */
+/* The items of the whole are gathered piece by piece. Of each piece a rank sends first how many it owns, and then their
+ * rows behind their numbers. */
 #include "domain/gather.h"
 
 #include <stdlib.h>
@@ -9,120 +9,122 @@
 #include "base/reduce.h"
 #include "base/status.h"
 
-/* What one rank sends: an item is 8 bytes long, a number of a node or of a row. */
-typedef struct rank_rows {
-    dem_index n; /* nodes */
-    void *items; /* [n] numbers of nodes, then [n][dim] of rows */
-} rank_rows;
+enum { PIECE = 1 << 16 }; /* items of the whole */
 
 typedef struct collection {
     const ranks *ranks;
-    int dim;
-    rank_rows *rows;                /* [ranks] of which rank 0 has all, another one its own */
+    const gather_items *items;
+    size_t size;                    /* bytes of a row */
+    const unsigned char *from;      /* [n][size] */
+    dem_index next;                 /* the first item here that is in no piece so far */
+    dem_index *n;                   /* [ranks] items of the piece, of which rank 0 knows all, another one its own */
+    unsigned char **bytes, *buffer; /* [ranks] what each sends: numbers of items, then their rows; and where */
     ranks_message *sent, *received; /* [ranks] */
 } collection;
 
-static size_t size_of(const collection *c, const rank_rows *p)
+/* Numbers of the next rank are aligned. */
+static size_t size_of(const collection *c, dem_index n)
 {
-    return (size_t)p->n * (1 + (size_t)c->dim) * sizeof(double);
+    const size_t bytes = (size_t)n * (sizeof(dem_index) + c->size), align = sizeof(dem_index);
+    return (bytes + align - 1) / align * align;
 }
 
-/* Between rank 0 and each of the others. */
-static void exchange_with_root(const collection *c, void *(*bytes)(rank_rows *p),
-                               size_t (*size)(const collection *c, const rank_rows *p))
+/* From each of the others to rank 0. */
+static void send_to_root(const collection *c, bool counts)
 {
     const ranks *r = c->ranks;
     const int n = r->rank == 0 ? r->size - 1 : 1;
     for (int k = 0; k < n; k++) {
-        const int other = r->rank == 0 ? k + 1 : 0;
-        rank_rows *p = &c->rows[r->rank == 0 ? other : r->rank];
-        const ranks_message full = {other, size(c, p), bytes(p)}, empty = {other, 0, NULL};
+        const int other = r->rank == 0 ? k + 1 : 0, of = r->rank == 0 ? other : r->rank;
+        const ranks_message count = {other, sizeof *c->n, &c->n[of]};
+        const ranks_message rows = {other, size_of(c, c->n[of]), c->bytes[of]};
+        const ranks_message full = counts ? count : rows, empty = {other, 0, NULL};
         c->sent[k] = r->rank == 0 ? empty : full;
         c->received[k] = r->rank == 0 ? full : empty;
     }
     r->exchange(r->self, n, c->sent, c->received);
 }
 
-static void *count_of(rank_rows *p)
+/* \param end  of the piece, by numbers of the whole  \return behind its last item here */
+static dem_index count(const collection *c, dem_index end)
 {
-    return &p->n;
+    const gather_items *items = c->items;
+    dem_index *n = &c->n[c->ranks->rank], i = c->next;
+    for (*n = 0; i < items->n && items->number[i] < end; i++) *n += items->is_own[i] != 0;
+    return i;
 }
 
-static size_t size_of_count(const collection *c, const rank_rows *p)
-{
-    (void)c;
-    return sizeof p->n;
-}
-
-static void *items_of(rank_rows *p)
-{
-    return p->items;
-}
-
-static void pack(const collection *c, const domain *d, const double *from)
-{
-    rank_rows *p = &c->rows[c->ranks->rank];
-    const size_t row = (size_t)c->dim * sizeof *from;
-    dem_index *number = p->items;
-    char *to = (char *)(number + p->n);
-    for (dem_index i = 0; i < d->n_nodes; i++) {
-        if (!d->is_own[i]) continue;
-        *number++ = d->number[i];
-        memcpy(to, from + c->dim * i, row);
-        to += row;
-    }
-}
-
-static void unpack(const collection *c, double *whole)
-{
-    const size_t row = (size_t)c->dim * sizeof *whole;
-    for (int k = 0; k < c->ranks->size; k++) {
-        const dem_index *number = c->rows[k].items;
-        const char *from = (const char *)(number + c->rows[k].n);
-        for (dem_index q = 0; q < c->rows[k].n; q++) memcpy(whole + c->dim * number[q], from + (size_t)q * row, row);
-    }
-}
-
-static dem_status allocate_lists(collection *c)
-{
-    const size_t n = (size_t)c->ranks->size;
-    c->rows = calloc(n, sizeof *c->rows);
-    c->sent = calloc(n, sizeof *c->sent);
-    c->received = calloc(n, sizeof *c->received);
-    CHECK(c->rows && c->sent && c->received, DEM_ERROR_MEMORY, "out of memory for %zu ranks", n);
-    return DEM_OK;
-}
-
-static dem_status allocate_items(const collection *c)
-{
-    for (int k = 0; k < c->ranks->size; k++) {
-        const size_t size = size_of(c, &c->rows[k]);
-        c->rows[k].items = malloc(size + 1);
-        CHECK(c->rows[k].items, DEM_ERROR_MEMORY, "out of memory for %zu bytes of rank %d", size, k);
-    }
-    return DEM_OK;
-}
-
-static dem_status collect(collection *c, const domain *d, const double *from, double *whole)
+/* One behind the other; other ranks have their own only. */
+static void lay_out(const collection *c)
 {
     const ranks *r = c->ranks;
-    TRY(reduce_status(r, allocate_lists(c), 0.0));
-    for (dem_index i = 0; i < d->n_nodes; i++) c->rows[r->rank].n += d->is_own[i];
-    exchange_with_root(c, count_of, size_of_count);
-    TRY(reduce_status(r, allocate_items(c), 0.0));
-    pack(c, d, from);
-    exchange_with_root(c, items_of, size_of);
-    if (r->rank == 0) unpack(c, whole);
+    unsigned char *at = c->buffer;
+    c->bytes[r->rank] = at;
+    for (int k = 0; k < r->size && r->rank == 0; k++) {
+        c->bytes[k] = at;
+        at += size_of(c, c->n[k]);
+    }
+}
+
+static void pack(const collection *c, dem_index behind)
+{
+    const gather_items *items = c->items;
+    dem_index *number = (dem_index *)(void *)c->bytes[c->ranks->rank];
+    unsigned char *to = (unsigned char *)(number + c->n[c->ranks->rank]);
+    for (dem_index i = c->next; i < behind; i++) {
+        if (!items->is_own[i]) continue;
+        *number++ = items->number[i];
+        memcpy(to, c->from + (size_t)i * c->size, c->size);
+        to += c->size;
+    }
+}
+
+static void unpack(const collection *c, unsigned char *whole)
+{
+    for (int k = 0; k < c->ranks->size; k++) {
+        const dem_index *number = (const dem_index *)(void *)c->bytes[k];
+        const unsigned char *from = (const unsigned char *)(number + c->n[k]);
+        for (dem_index q = 0; q < c->n[k]; q++)
+            memcpy(whole + (size_t)number[q] * c->size, from + (size_t)q * c->size, c->size);
+    }
+}
+
+static void collect_piece(collection *c, dem_index end, unsigned char *whole)
+{
+    const dem_index behind = count(c, end);
+    send_to_root(c, true);
+    lay_out(c);
+    pack(c, behind);
+    send_to_root(c, false);
+    if (c->ranks->rank == 0) unpack(c, whole);
+    c->next = behind;
+}
+
+/* An item is owned once, so that all ranks together send a piece. */
+static dem_status allocate(collection *c)
+{
+    const size_t n = (size_t)c->ranks->size;
+    const dem_index most = c->ranks->rank == 0 ? c->items->n_whole : c->items->n;
+    c->n = calloc(n, sizeof *c->n);
+    c->bytes = calloc(n, sizeof *c->bytes);
+    c->sent = calloc(n, sizeof *c->sent);
+    c->received = calloc(n, sizeof *c->received);
+    c->buffer = malloc(size_of(c, most < PIECE ? most : PIECE) + n * sizeof(dem_index));
+    CHECK(c->n && c->bytes && c->sent && c->received && c->buffer, DEM_ERROR_MEMORY,
+          "out of memory for rows of %d ranks", c->ranks->size);
     return DEM_OK;
 }
 
-dem_status gather_rows(const ranks *r, const domain *d, int dim, const double *from, double *whole)
+dem_status gather_rows(const ranks *r, const gather_items *items, size_t size, const void *from, void *whole)
 {
-    collection c = {.ranks = r, .dim = dim};
-    const dem_status status = collect(&c, d, from, whole);
-    for (int k = 0; k < r->size && c.rows != NULL; k++) free(c.rows[k].items);
-    free(c.rows);
+    collection c = {.ranks = r, .items = items, .size = size, .from = from};
+    const dem_status status = reduce_status(r, allocate(&c), 0.0);
+    for (dem_index end = PIECE; status == DEM_OK && end - PIECE < items->n_whole; end += PIECE)
+        collect_piece(&c, end, whole);
+    free(c.n);
+    free(c.bytes);
     free(c.sent);
     free(c.received);
+    free(c.buffer);
     return status;
 }

@@ -133,6 +133,12 @@ dem_status stress_prepare(const stress_map *map)
     return on_demand_make(&map->rows->made, make_rows, map->rows);
 }
 
+void stress_forget(const stress_map *map)
+{
+    free_arrays(map->rows);
+    map->rows->made.is_made = false;
+}
+
 /* The volume of a node is a third of that of its triangles at rest. */
 static dem_status find_volumes(stress_map *map, const dem_lattice *l)
 {

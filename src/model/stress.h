@@ -39,6 +39,10 @@ dem_status stress_create(stress_map *out, dem_index n_nodes, dem_index n_shares,
  *  DEM_ERROR_MODEL for 2^31 shares */
 dem_status stress_prepare(const stress_map *map);
 
+/** Frees the rows until they are asked for again; while nobody else looks at them. Not of a map that was created with
+ *  room for them. */
+void stress_forget(const stress_map *map);
+
 /** Stress of node i at positions x [n][2], Pa: xx, yy, xy, by a map that is prepared.
  *  \param lattice, t  from which the map was compiled */
 void stress_of_node(const stress_map *map, const dem_lattice *lattice, const triangles *t, dem_index i, const double *x,

@@ -64,89 +64,97 @@ static void spread(double *out, dem_index n, const double *values, const double 
             out[3 * i + d] = d == 2 ? 0.0 : values[2 * i + d] - (less != NULL ? less[2 * i + d] : 0.0);
 }
 
-static void fill_points(const frames *f, const view *v)
+static dem_status fill_points(const frames *f, const view *v)
 {
     spread(f->scratch, f->n_nodes, v->state.x, NULL);
+    return DEM_OK;
 }
 
 /* From the rest position, which need not be where the motion started. */
-static void fill_displacement(const frames *f, const view *v)
+static dem_status fill_displacement(const frames *f, const view *v)
 {
     spread(f->scratch, f->n_nodes, v->state.x, v->lattice->x);
+    return DEM_OK;
 }
 
-static void fill_velocity(const frames *f, const view *v)
+static dem_status fill_velocity(const frames *f, const view *v)
 {
     spread(f->scratch, f->n_nodes, v->state.v, NULL);
+    return DEM_OK;
 }
 
 /* The stresses have been computed before (append_arrays), since several arrays are made of them. */
-static void fill_stress(const frames *f, const view *v)
+static dem_status fill_stress(const frames *f, const view *v)
 {
     (void)v;
     frames_spread_stress(f->scratch, f->n_nodes, f->stress);
+    return DEM_OK;
 }
 
-static void fill_von_mises(const frames *f, const view *v)
+static dem_status fill_von_mises(const frames *f, const view *v)
 {
     (void)v;
     for (dem_index i = 0; i < f->n_nodes; i++) f->scratch[i] = dem_stress_von_mises(f->stress + 3 * i);
+    return DEM_OK;
 }
 
 /* The values only; directions are not written. */
-static void fill_principal(const frames *f, const view *v)
+static dem_status fill_principal(const frames *f, const view *v)
 {
     double direction[2];
     (void)v;
     for (dem_index i = 0; i < f->n_nodes; i++) dem_stress_principal(f->stress + 3 * i, f->scratch + 2 * i, direction);
+    return DEM_OK;
 }
 
 /* Two components of each node behind the room of three. */
-static void fill_contact_force(const frames *f, const view *v)
+static dem_status fill_contact_force(const frames *f, const view *v)
 {
     double *plane = f->scratch + 3 * f->n_nodes;
-    (void)dem_simulation_contact_forces(v->simulation, plane);
+    TRY(dem_simulation_contact_forces(v->simulation, plane));
     spread(f->scratch, f->n_nodes, plane, NULL);
+    return DEM_OK;
 }
 
 /* They have been computed before, as stresses. */
-static void fill_contact_pressure(const frames *f, const view *v)
+static dem_status fill_contact_pressure(const frames *f, const view *v)
 {
     (void)v;
     memcpy(f->scratch, f->pressure, (size_t)f->n_nodes * sizeof *f->scratch);
+    return DEM_OK;
 }
 
 /* The simulation computes strains and forces of all springs, straight into the scratch. */
-static void fill_strain(const frames *f, const view *v)
+static dem_status fill_strain(const frames *f, const view *v)
 {
-    (void)dem_simulation_strains(v->simulation, f->scratch);
+    return dem_simulation_strains(v->simulation, f->scratch);
 }
 
-static void fill_force(const frames *f, const view *v)
+static dem_status fill_force(const frames *f, const view *v)
 {
-    (void)dem_simulation_forces(v->simulation, f->scratch);
+    return dem_simulation_forces(v->simulation, f->scratch);
 }
 
 /* Numbers of 8 bytes, in the room of reals. */
-static void fill_fragment(const frames *f, const view *v)
+static dem_status fill_fragment(const frames *f, const view *v)
 {
     dem_index n_fragments;
-    (void)dem_simulation_fragments(v->simulation, &n_fragments, (dem_index *)(void *)f->scratch);
+    return dem_simulation_fragments(v->simulation, &n_fragments, (dem_index *)(void *)f->scratch);
 }
 
-static void fill_damage(const frames *f, const view *v)
+static dem_status fill_damage(const frames *f, const view *v)
 {
-    (void)dem_simulation_damage(v->simulation, NULL, f->scratch);
+    return dem_simulation_damage(v->simulation, NULL, f->scratch);
 }
 
-static void fill_broken(const frames *f, const view *v)
+static dem_status fill_broken(const frames *f, const view *v)
 {
-    (void)dem_simulation_broken(v->simulation, NULL, (unsigned char *)f->scratch);
+    return dem_simulation_broken(v->simulation, NULL, (unsigned char *)f->scratch);
 }
 
-static void fill_broken_triangles(const frames *f, const view *v)
+static dem_status fill_broken_triangles(const frames *f, const view *v)
 {
-    (void)dem_simulation_broken(v->simulation, (unsigned char *)f->scratch, NULL);
+    return dem_simulation_broken(v->simulation, (unsigned char *)f->scratch, NULL);
 }
 
 /* From what is broken, in the scratch, to what VTK does not draw. */
@@ -157,16 +165,18 @@ static void hide(const frames *f, dem_index n)
     for (dem_index k = 0; k < n; k++) hidden[k] = hidden[k] != 0 ? VTK_HIDDEN_CELL : 0;
 }
 
-static void fill_hidden(const frames *f, const view *v)
+static dem_status fill_hidden(const frames *f, const view *v)
 {
-    fill_broken(f, v);
+    TRY(fill_broken(f, v));
     hide(f, f->n_springs);
+    return DEM_OK;
 }
 
-static void fill_hidden_triangles(const frames *f, const view *v)
+static dem_status fill_hidden_triangles(const frames *f, const view *v)
 {
-    fill_broken_triangles(f, v);
+    TRY(fill_broken_triangles(f, v));
     hide(f, f->n_triangles);
+    return DEM_OK;
 }
 
 /* All arrays that change from frame to frame. `field` is the option that asks for one. */
@@ -176,7 +186,7 @@ static const struct array {
     hdf5_kind kind;            /* HDF5_F32: as the options say */
     enum of of;
     int components;
-    void (*fill)(const frames *f, const view *v);
+    dem_status (*fill)(const frames *f, const view *v);
 } arrays[] = {
     {GRID "Points", STEPS "/PointOffsets", 0, HDF5_F64, NODES, 3, fill_points},
     /* Nodes: what the options choose, in single precision unless they say otherwise. */
@@ -433,7 +443,7 @@ static dem_status append_arrays(const frames *f, const hdf5_file *file, const vi
         const hdf5_rows rows = array_rows(f, a);
         const hsize_t count = (hsize_t)count_of(f, a->of);
         if (!is_wanted(f, a)) continue;
-        a->fill(f, v);
+        TRY(a->fill(f, v));
         TRY(hdf5_append(file, &rows, (hsize_t)f->n * count, count, f->scratch));
     }
     return DEM_OK;

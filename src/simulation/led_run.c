@@ -83,6 +83,15 @@ static void drop(led_run *l)
     l->is_observed = false;
 }
 
+/* Of the whole only the cut of domains needs shares in stresses, which each part has of its nodes. */
+static dem_status distribute(led_run *l, const dem_private_whole *about)
+{
+    const dem_model *whole = l->whole != NULL ? l->whole->model : NULL;
+    const dem_status status = shared_model_distribute(&l->model, whole, about, &l->ranks);
+    if (whole != NULL) stress_forget(&whole->stress);
+    return status;
+}
+
 static dem_status create_part(led_run *l, const shared_problem *p, bool resumes, const dem_checkpoint *checkpoint)
 {
     dem_private_whole about = {.obstacles = p->obstacles,
@@ -90,7 +99,7 @@ static dem_status create_part(led_run *l, const shared_problem *p, bool resumes,
                                .weights = l->balance.weights,
                                .is_near = near_contact_nodes(&l->near)};
     TRY(dem_private_use_shared(&about, &p->options));
-    TRY(shared_model_distribute(&l->model, l->whole != NULL ? l->whole->model : NULL, &about, &l->ranks));
+    TRY(distribute(l, &about));
     if (resumes)
         TRY(dem_simulation_resume(&l->part, l->model, &p->options, checkpoint));
     else
@@ -463,8 +472,10 @@ void led_run_look_for_overlaps(dem_simulation *part)
     dem_simulation *whole = part->whole;
     const dem_model *m = part->model;
     double *x = whole != NULL ? whole->frame : NULL;
+    const gather_items nodes = gather_nodes(m->domain);
     /* A lack of memory ends all ranks: enter(). */
-    if (gather_rows(m->ranks, m->domain, part->layout.dim, part->y, x) != DEM_OK || whole == NULL) return;
+    const dem_status status = gather_rows(m->ranks, &nodes, (size_t)part->layout.dim * sizeof *x, part->y, x);
+    if (status != DEM_OK || whole == NULL) return;
     whole->measures->has_state = whole->measures->has_elements = false;
     if (shared_breaks_show(whole, part) != DEM_OK || shared_breaks_look(whole) != DEM_OK) return;
     overlap_look(&whole->overlap, &whole->model->lattice, part->t, x);

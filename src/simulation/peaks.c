@@ -40,11 +40,12 @@ static dem_status look_at_nodes(dem_peaks *p, const dem_simulation *simulation, 
 }
 
 /* The size of a strain is its magnitude; the sign is kept: stretched or squeezed. */
-static void look_at_springs(dem_peaks *p, const dem_simulation *simulation, double t)
+static dem_status look_at_springs(dem_peaks *p, const dem_simulation *simulation, double t)
 {
-    (void)dem_simulation_strains(simulation, p->strain);
+    TRY(dem_simulation_strains(simulation, p->strain));
     for (dem_index k = 0; k < p->n_springs; k++)
         if (fabs(p->strain[k]) > fabs(p->springs[k].strain)) p->springs[k] = (dem_spring_peak){p->strain[k], t};
+    return DEM_OK;
 }
 
 /* Those whose number is a multiple of `every` are looked at. */
@@ -59,12 +60,11 @@ static dem_index steps_since_look(const dem_peaks *p, const dem_simulation *simu
 static dem_status look(void *context, const dem_simulation *simulation)
 {
     dem_peaks *p = context;
-    dem_state state = {.struct_size = sizeof state};
+    dem_progress now = {.struct_size = sizeof now};
     if (steps_since_look(p, simulation) > 0) return DEM_OK;
-    TRY(dem_simulation_state(simulation, &state));
-    TRY(look_at_nodes(p, simulation, state.t));
-    look_at_springs(p, simulation, state.t);
-    return DEM_OK;
+    TRY(dem_simulation_progress(simulation, &now));
+    TRY(look_at_nodes(p, simulation, now.t));
+    return look_at_springs(p, simulation, now.t);
 }
 
 /* Puts what a checkpoint contains of the peaks into it, or gets it from there. */

@@ -22,6 +22,7 @@
 #include "simulation/body_contact.h"
 #include "simulation/led_run.h"
 #include "simulation/shared_breaks.h"
+#include "simulation/shared_field.h"
 
 void query_at(dem_simulation *s, double t, const double *y)
 {
@@ -204,8 +205,10 @@ dem_status dem_simulation_gather(const dem_simulation *s, double *x, double *v)
     const double *seen = seen_of(s), *velocities = s->seen + state_velocities(&s->layout);
     const size_t size = (size_t)state_row(&s->layout, m->lattice.n_nodes) * sizeof *x;
     if (m->domain != NULL) {
-        TRY(gather_rows(m->ranks, m->domain, s->layout.dim, seen, x));
-        return gather_rows(m->ranks, m->domain, s->layout.dim, velocities, v);
+        const gather_items nodes = gather_nodes(m->domain);
+        const size_t row = (size_t)s->layout.dim * sizeof *x;
+        TRY(gather_rows(m->ranks, &nodes, row, seen, x));
+        return gather_rows(m->ranks, &nodes, row, velocities, v);
     }
     memcpy(x, seen, size);
     memcpy(v, velocities, size);
@@ -258,6 +261,12 @@ dem_status dem_simulation_contact(const dem_simulation *s, dem_index contact, de
     return GIVE(dem_contact, out, &contacts[contact]);
 }
 
+/* Of a simulation that leads a run.  \param out  NULL: not wanted */
+static dem_status ask_field(const dem_simulation *s, shared_field_kind field, void *out)
+{
+    return out != NULL ? led_run_ask(s, RANK_CALL_FIELD, (dem_index)field, out) : DEM_OK;
+}
+
 /* What is broken at the time that is seen, as breaks are taken back with the other events: of a simulation that leads
  * a run what the part of this rank has, in which all is that may break. NULL: all elements are whole. */
 static dem_status find_elements(const dem_simulation *s, const element_state **out)
@@ -276,6 +285,7 @@ dem_status dem_simulation_strains(const dem_simulation *s, double *strain)
 {
     const element_state *elements;
     TRY(check_pointers("dem_simulation_strains", s, strain));
+    if (s->leads != NULL) return ask_field(s, SHARED_FIELD_STRAINS, strain);
     TRY(find_elements(s, &elements));
     const double *x = all_seen_of(s);
     if (s->measures->has_stress)
@@ -289,6 +299,7 @@ dem_status dem_simulation_forces(const dem_simulation *s, double *force)
 {
     const element_state *elements;
     TRY(check_pointers("dem_simulation_forces", s, force));
+    if (s->leads != NULL) return ask_field(s, SHARED_FIELD_FORCES, force);
     TRY(find_elements(s, &elements));
     const double *x = all_seen_of(s);
     springs_forces(&s->model->lattice, element_state_springs(elements), x, force);
@@ -306,13 +317,6 @@ static double force_of(const dem_simulation *s, dem_index spring, const double *
                                  spring, x, own);
 }
 
-/* Of ranks the one reports it that owns the lower node. */
-static bool reports_spring(const dem_model *m, dem_index spring)
-{
-    const dem_index *ends = &m->lattice.ends[2 * spring];
-    return domain_owns(m->domain, ends[0] < ends[1] ? ends[0] : ends[1]);
-}
-
 dem_status dem_simulation_force_at(const dem_simulation *s, dem_index spring, double *out)
 {
     TRY(check_pointers("dem_simulation_force_at", s, out));
@@ -322,7 +326,7 @@ dem_status dem_simulation_force_at(const dem_simulation *s, dem_index spring, do
     TRY(status_check_number("spring", spring, d != NULL ? d->n_springs : l->n_springs));
     const double *x = all_seen_of(s);
     const dem_index k = d != NULL ? sorted_find(d->spring, l->n_springs, spring) : spring;
-    const bool is_here = k >= 0 && reports_spring(s->model, k);
+    const bool is_here = k >= 0 && domain_owns_element(d, &l->ends[2 * k], 2);
     double force = is_here ? force_of(s, k, x) : 0.0;
     reduce_report(s->model->ranks, is_here, &force, 1);
     *out = force;
@@ -333,6 +337,10 @@ dem_status dem_simulation_broken(const dem_simulation *s, unsigned char *triangl
 {
     const element_state *elements;
     TRY(check_pointers("dem_simulation_broken", s, s));
+    if (s->leads != NULL) {
+        TRY(ask_field(s, SHARED_FIELD_BROKEN_TRIANGLES, triangle));
+        return ask_field(s, SHARED_FIELD_BROKEN_SPRINGS, spring);
+    }
     TRY(find_elements(s, &elements));
     const dem_lattice *l = &s->model->lattice;
     for (dem_index k = 0; k < l->n_triangles && triangle != NULL; k++)
@@ -346,6 +354,10 @@ dem_status dem_simulation_damage(const dem_simulation *s, double *triangle, doub
 {
     const element_state *elements;
     TRY(check_pointers("dem_simulation_damage", s, s));
+    if (s->leads != NULL) {
+        TRY(ask_field(s, SHARED_FIELD_TRIANGLE_DAMAGE, triangle));
+        return ask_field(s, SHARED_FIELD_NODE_DAMAGE, node);
+    }
     TRY(find_elements(s, &elements));
     const dem_lattice *l = &s->model->lattice;
     for (dem_index t = 0; t < l->n_triangles && triangle != NULL; t++) triangle[t] = element_state_damage(elements, t);
@@ -391,6 +403,7 @@ dem_status dem_simulation_stress(const dem_simulation *s, double *stress)
 {
     const element_state *elements;
     TRY(check_pointers("dem_simulation_stress", s, stress));
+    if (s->leads != NULL) return ask_field(s, SHARED_FIELD_STRESS, stress);
     TRY(find_elements(s, &elements));
     TRY(stress_prepare(&s->model->stress));
     const double *x = all_seen_of(s);

@@ -3,6 +3,7 @@
 
 #include "base/status.h"
 #include "simulation/rank_shares.h"
+#include "simulation/shared_field.h"
 
 /* From rank 0 the call, from the others what is asked of them. */
 typedef struct packet {
@@ -69,6 +70,8 @@ dem_status rank_call_answer(const dem_simulation *part, const rank_call *what, v
         return dem_simulation_stress_at(part, what->number, out);
     case RANK_CALL_FORCE_AT:
         return dem_simulation_force_at(part, what->number, out);
+    case RANK_CALL_FIELD:
+        return shared_field_gather(part, (shared_field_kind)what->number, out);
     case RANK_CALL_SHARES:
         rank_shares_measure(out, part);
         return DEM_OK;

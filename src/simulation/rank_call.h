@@ -23,6 +23,7 @@ typedef enum rank_call_kind {
     RANK_CALL_BOUNDARY,
     RANK_CALL_STRESS_AT,
     RANK_CALL_FORCE_AT,
+    RANK_CALL_FIELD,  /* a shared_field_kind as `number` */
     RANK_CALL_SHARES, /* of the model (simulation/rank_shares.h) */
     RANK_CALL_DROP,   /* the simulation */
     RANK_CALL_END     /* no more calls; `number` is for the program */

@@ -21,13 +21,14 @@ dem_status shared_checkpoint_gather(const dem_simulation *s, dem_checkpoint *che
     const bool is_root = m->ranks->rank == 0;
     const size_t n = (size_t)state_size(of);
     const double *v = s->y + state_velocities(&s->layout);
+    const gather_items nodes = gather_nodes(m->domain);
+    const size_t row = (size_t)of->dim * sizeof *v;
     double *whole = is_root ? calloc(n, sizeof *whole) : NULL;
     dem_status status = DEM_OK;
     if (is_root && whole == NULL) status = status_fail(DEM_ERROR_MEMORY, "out of memory for a checkpoint");
     status = reduce_status(m->ranks, status, 0.0);
-    if (status == DEM_OK) status = gather_rows(m->ranks, m->domain, of->dim, s->y, whole);
-    if (status == DEM_OK)
-        status = gather_rows(m->ranks, m->domain, of->dim, v, is_root ? whole + state_velocities(of) : NULL);
+    if (status == DEM_OK) status = gather_rows(m->ranks, &nodes, row, s->y, whole);
+    if (status == DEM_OK) status = gather_rows(m->ranks, &nodes, row, v, is_root ? whole + state_velocities(of) : NULL);
     if (status == DEM_OK && is_root) {
         state_copy_quadratures(whole, of, s->y, &s->layout);
         status = dem_checkpoint_put(checkpoint, entry, whole, n * sizeof *whole);

@@ -30,7 +30,8 @@ static void gather(const ranks *r, void *context)
     double *rows = calloc(DIM * (size_t)d.n_nodes, sizeof *rows);
     for (dem_index k = 0; k < DIM * d.n_nodes; k++)
         rows[k] = d.is_own[k / DIM] ? value(DIM * d.number[k / DIM] + k % DIM) : (double)NAN;
-    g->status[r->rank] = gather_rows(r, &d, DIM, rows, r->rank == 0 ? g->whole : NULL);
+    const gather_items nodes = gather_nodes(&d);
+    g->status[r->rank] = gather_rows(r, &nodes, DIM * sizeof *rows, rows, r->rank == 0 ? g->whole : NULL);
     free(rows);
     domain_free(&d);
 }
@@ -45,5 +46,42 @@ TEST(rank_0_gets_the_rows_of_all_nodes)
         rank_threads_run(n_ranks, gather, &g);
         for (int k = 0; k < n_ranks; k++) assert_int_equal(g.status[k], DEM_OK);
         for (dem_index k = 0; k < DIM * l.n_nodes; k++) assert_true(whole[k] == value(k));
+    }
+}
+
+/* Rows of an odd number of bytes, of more items than go into two messages; not all ranks have all of them. */
+enum { MANY = 150001, SIZE = 5 };
+
+static int owner_of(dem_index k, int n_ranks)
+{
+    return (int)(((uint64_t)k * 2654435761u >> 7) % (uint64_t)n_ranks);
+}
+
+static void gather_many(const ranks *r, void *context)
+{
+    unsigned char *whole = context, *is_own = malloc(MANY), *rows = malloc((size_t)MANY * SIZE);
+    dem_index *number = malloc(MANY * sizeof *number), n = 0;
+    for (dem_index k = 0; k < MANY; k++) {
+        const bool owns = owner_of(k, r->size) == r->rank;
+        if (!owns && k % 3 != r->rank) continue;
+        for (dem_index q = 0; q < SIZE; q++) rows[SIZE * n + q] = owns ? (unsigned char)(k >> 4 * q) : 0xee;
+        is_own[n] = owns;
+        number[n++] = k;
+    }
+    const gather_items items = {n, MANY, number, is_own};
+    assert_int_equal(gather_rows(r, &items, SIZE, rows, r->rank == 0 ? whole : NULL), DEM_OK);
+    free(number);
+    free(is_own);
+    free(rows);
+}
+
+TEST(many_rows_come_piece_by_piece)
+{
+    for (int n_ranks = 1; n_ranks <= MOST_RANKS; n_ranks++) {
+        CLEANUP(free_memory) unsigned char *whole = calloc(MANY, SIZE);
+        rank_threads_run(n_ranks, gather_many, whole);
+        for (dem_index k = 0; k < MANY; k++)
+            for (dem_index q = 0; q < SIZE; q++)
+                if (whole[SIZE * k + q] != (unsigned char)(k >> 4 * q)) fail_msg("%d ranks: item %d", n_ranks, (int)k);
     }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* led_run.c: nodes that are shared out anew, as ranks say that they work for different times, change no bit of what is
- * seen, and frames, steps and checkpoints come as in a run of one process. */
+ * seen, fields of nodes and springs too, and frames, steps and checkpoints come as in a run of one process. */
 #include "harness/rank_threads.h"
 #include "simulation/led_run.h"
 #include "unit/simulation/runs.h"
@@ -12,9 +12,10 @@ enum { N_RANKS = 3, MOST_FRAMES = 64, TEXT = 256 };
 typedef struct watched {
     const dem_model *model;
     dem_options options;
-    dem_index n_nodes; /* of the whole */
+    dem_index n_nodes, n_springs; /* of the whole, and how many numbers a frame has */
+    size_t n_seen;
     int n_frames, n_checkpoints, n_steps;
-    double *frames;     /* [MOST_FRAMES][2 n_nodes] positions */
+    double *frames;     /* [MOST_FRAMES][n_seen] positions, stresses, strains and forces */
     dem_index n_own;    /* of the part of rank 0 now, and */
     int n_shared;       /* how often it has had other nodes */
     char failure[TEXT]; /* empty: none */
@@ -24,10 +25,13 @@ static dem_status note_frame(void *context, const dem_simulation *s)
 {
     watched *w = context;
     dem_state state = {.struct_size = sizeof state};
-    const dem_status status = dem_simulation_state(s, &state);
-    if (status == DEM_OK && w->n_frames < MOST_FRAMES)
-        memcpy(w->frames + 2 * w->n_nodes * w->n_frames++, state.x, 2 * (size_t)w->n_nodes * sizeof *state.x);
-    return status;
+    TRY(dem_simulation_state(s, &state));
+    if (w->n_frames == MOST_FRAMES) return DEM_ERROR_ARGUMENT;
+    double *frame = w->frames + w->n_seen * (size_t)w->n_frames++, *strain = frame + 5 * w->n_nodes;
+    memcpy(frame, state.x, 2 * (size_t)w->n_nodes * sizeof *state.x);
+    TRY(dem_simulation_stress(s, frame + 2 * w->n_nodes));
+    TRY(dem_simulation_strains(s, strain));
+    return dem_simulation_forces(s, strain + w->n_springs);
 }
 
 static dem_index count_own(const dem_simulation *part)
@@ -86,9 +90,11 @@ static void watch_as_rank(const ranks *r, void *context)
 
 static watched begin_watch(const dem_model *model)
 {
-    watched w = {.model = model, .options = dem_options_default(), .n_nodes = dem_model_lattice(model)->n_nodes};
+    const dem_lattice *l = dem_model_lattice(model);
+    watched w = {.model = model, .options = dem_options_default(), .n_nodes = l->n_nodes, .n_springs = l->n_springs};
+    w.n_seen = (size_t)(5 * l->n_nodes + 2 * l->n_springs);
     w.options.checkpoint_steps = 8;
-    w.frames = calloc((size_t)(2 * MOST_FRAMES * w.n_nodes), sizeof *w.frames);
+    w.frames = calloc(MOST_FRAMES * w.n_seen, sizeof *w.frames);
     return w;
 }
 
@@ -104,7 +110,7 @@ static dem_index lead(const watched *whole, const double *seconds, int *n_shared
     assert_int_equal(led.n_steps, whole->n_steps);
     assert_int_equal(led.n_frames, whole->n_frames);
     assert_int_equal(led.n_checkpoints, whole->n_checkpoints);
-    assert_memory_equal(led.frames, whole->frames, (size_t)(2 * led.n_nodes * led.n_frames) * sizeof *led.frames);
+    assert_memory_equal(led.frames, whole->frames, led.n_seen * (size_t)led.n_frames * sizeof *led.frames);
     free(led.frames);
     *n_shared = led.n_shared;
     return led.n_own;
