@@ -54,12 +54,12 @@ static inline bool domain_owns(const domain *d, dem_index i)
     return d == NULL || d->is_own[i];
 }
 
-/** Whether a spring or a triangle counts here: it belongs to its lowest node.  \param nodes  [n] of it */
-static inline bool domain_owns_element(const domain *d, const dem_index *nodes, int n)
+/** The lowest of the n nodes of a spring or a triangle: it counts where that one does. */
+static inline dem_index domain_lowest(const dem_index *nodes, int n)
 {
     dem_index lowest = nodes[0];
     for (int k = 1; k < n; k++) lowest = nodes[k] < lowest ? nodes[k] : lowest;
-    return domain_owns(d, lowest);
+    return lowest;
 }
 
 /** The nodes from `first` to *end - 1, of n, are all own ones, or none is. NULL stands for the whole lattice.

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The items of the whole are gathered piece by piece. Of each piece a rank sends first how many it owns, and then their
- * rows behind their numbers. */
+ * rows behind their numbers. Back to the ranks each piece goes as a whole. */
 #include "domain/gather.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -45,12 +46,17 @@ static void send_to_root(const collection *c, bool counts)
     r->exchange(r->self, n, c->sent, c->received);
 }
 
+static bool owns(const gather_items *items, dem_index i)
+{
+    return items->is_own[items->nodes != NULL ? domain_lowest(items->nodes + items->arity * i, items->arity) : i] != 0;
+}
+
 /* \param end  of the piece, by numbers of the whole  \return behind its last item here */
 static dem_index count(const collection *c, dem_index end)
 {
     const gather_items *items = c->items;
     dem_index *n = &c->n[c->ranks->rank], i = c->next;
-    for (*n = 0; i < items->n && items->number[i] < end; i++) *n += items->is_own[i] != 0;
+    for (*n = 0; i < items->n && items->number[i] < end; i++) *n += owns(items, i);
     return i;
 }
 
@@ -72,7 +78,7 @@ static void pack(const collection *c, dem_index behind)
     dem_index *number = (dem_index *)(void *)c->bytes[c->ranks->rank];
     unsigned char *to = (unsigned char *)(number + c->n[c->ranks->rank]);
     for (dem_index i = c->next; i < behind; i++) {
-        if (!items->is_own[i]) continue;
+        if (!owns(items, i)) continue;
         *number++ = items->number[i];
         memcpy(to, c->from + (size_t)i * c->size, c->size);
         to += c->size;
@@ -100,11 +106,11 @@ static void collect_piece(collection *c, dem_index end, unsigned char *whole)
     c->next = behind;
 }
 
-/* An item is owned once, so that all ranks together send a piece. */
+/* An item is owned once, so that all ranks together send a piece, and any of them may get one. */
 static dem_status allocate(collection *c)
 {
     const size_t n = (size_t)c->ranks->size;
-    const dem_index most = c->ranks->rank == 0 ? c->items->n_whole : c->items->n;
+    const dem_index most = c->items->n_whole;
     c->n = calloc(n, sizeof *c->n);
     c->bytes = calloc(n, sizeof *c->bytes);
     c->sent = calloc(n, sizeof *c->sent);
@@ -115,16 +121,60 @@ static dem_status allocate(collection *c)
     return DEM_OK;
 }
 
+static void release(collection *c)
+{
+    free(c->n);
+    free(c->bytes);
+    free(c->sent);
+    free(c->received);
+    free(c->buffer);
+}
+
 dem_status gather_rows(const ranks *r, const gather_items *items, size_t size, const void *from, void *whole)
 {
     collection c = {.ranks = r, .items = items, .size = size, .from = from};
     const dem_status status = reduce_status(r, allocate(&c), 0.0);
     for (dem_index end = PIECE; status == DEM_OK && end - PIECE < items->n_whole; end += PIECE)
         collect_piece(&c, end, whole);
-    free(c.n);
-    free(c.bytes);
-    free(c.sent);
-    free(c.received);
-    free(c.buffer);
+    release(&c);
+    return status;
+}
+
+/* ---- back ---- */
+
+/* Rank 0 has `piece` already, and the others get it. */
+static void send_piece(const collection *c, size_t bytes, void *piece)
+{
+    const ranks *r = c->ranks;
+    const int n = r->rank == 0 ? r->size - 1 : 1;
+    for (int k = 0; k < n; k++) {
+        const int other = r->rank == 0 ? k + 1 : 0;
+        const ranks_message full = {other, bytes, piece}, empty = {other, 0, NULL};
+        c->sent[k] = r->rank == 0 ? full : empty;
+        c->received[k] = r->rank == 0 ? empty : full;
+    }
+    r->exchange(r->self, n, c->sent, c->received);
+}
+
+/* \param first, end  of the piece, by numbers of the whole */
+static void take_rows(collection *c, dem_index first, dem_index end, const unsigned char *piece, unsigned char *to)
+{
+    const gather_items *items = c->items;
+    for (; c->next < items->n && items->number[c->next] < end; c->next++)
+        memcpy(to + (size_t)c->next * c->size, piece + (size_t)(items->number[c->next] - first) * c->size, c->size);
+}
+
+dem_status gather_back(const ranks *r, const gather_items *items, size_t size, const void *whole, void *to)
+{
+    collection c = {.ranks = r, .items = items, .size = size};
+    const dem_status status = reduce_status(r, allocate(&c), 0.0);
+    for (dem_index first = 0, end; status == DEM_OK && first < items->n_whole; first = end) {
+        end = first + PIECE < items->n_whole ? first + PIECE : items->n_whole;
+        /* Messages are not const, whoever sends them. */
+        void *piece = r->rank == 0 ? (void *)((uintptr_t)whole + (size_t)first * size) : c.buffer;
+        send_piece(&c, (size_t)(end - first) * size, piece);
+        take_rows(&c, first, end, piece, to);
+    }
+    release(&c);
     return status;
 }

@@ -10,13 +10,25 @@
 typedef struct gather_items {
     dem_index n, n_whole;        /* here, and in the whole lattice */
     const dem_index *number;     /* [n] in the whole lattice, ascending */
-    const unsigned char *is_own; /* [n] 1: its row comes from here, as from no other rank */
+    const unsigned char *is_own; /* [nodes] 1: owned here, as by no other rank */
+    const dem_index *nodes;      /* [n][arity] of springs or triangles, which belong to the lowest; NULL: of nodes */
+    int arity;
 } gather_items;
 
-/** The nodes of a domain. */
+/** Those of a domain.  \param l  its lattice */
 static inline gather_items gather_nodes(const domain *d)
 {
-    return (gather_items){d->n_nodes, d->n_whole, d->number, d->is_own};
+    return (gather_items){d->n_nodes, d->n_whole, d->number, d->is_own, NULL, 0};
+}
+
+static inline gather_items gather_springs(const domain *d, const dem_lattice *l)
+{
+    return (gather_items){l->n_springs, d->n_springs, d->spring, d->is_own, l->ends, 2};
+}
+
+static inline gather_items gather_triangles(const domain *d, const dem_lattice *l)
+{
+    return (gather_items){l->n_triangles, d->n_triangles, d->triangle, d->is_own, l->triangles, 3};
 }
 
 /** Puts what each rank has of its own items in an array into that of rank 0, so many at a time that messages take
@@ -26,5 +38,11 @@ static inline gather_items gather_nodes(const domain *d)
  *  \param[out] whole [n_whole][size] on rank 0; not looked at elsewhere
  *  \return DEM_ERROR_MEMORY, on all ranks */
 dem_status gather_rows(const ranks *r, const gather_items *items, size_t size, const void *from, void *whole);
+
+/** The other way round: gives each rank the rows of what it has, owned or not. Collective.
+ *  \param whole    [n_whole][size] on rank 0; not looked at elsewhere
+ *  \param[out] to  [n][size]
+ *  \return DEM_ERROR_MEMORY, on all ranks */
+dem_status gather_back(const ranks *r, const gather_items *items, size_t size, const void *whole, void *to);
 
 #endif

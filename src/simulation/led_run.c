@@ -16,6 +16,7 @@
 #include "model/shared_model.h"
 #include "simulation/rank_shares.h"
 #include "simulation/shared_breaks.h"
+#include "simulation/shared_peaks.h"
 #include "simulation/shared_problem.h"
 #include "simulation/shared_use.h"
 #include "simulation/step_parts.h"
@@ -38,6 +39,7 @@ struct led_run {
     dem_simulation *whole; /* NULL: this rank follows */
     dem_model *model;      /* of the part */
     dem_simulation *part;  /* NULL: there is none */
+    shared_peaks peaks;    /* of the part, and on rank 0 whose they are */
     bool is_observed;
     frame_relay frames[OBSERVERS_MOST];
     double busy, entered;       /* s of work since nodes were shared out, and busy_time() in enter() */
@@ -76,6 +78,7 @@ static void leave(led_run *l)
 
 static void drop(led_run *l)
 {
+    shared_peaks_drop(&l->peaks);
     dem_simulation_destroy(l->part);
     dem_model_destroy(l->model);
     l->part = NULL;
@@ -391,6 +394,11 @@ static void take_part(led_run *l, const rank_call *o)
     case RANK_CALL_GATHER:
         (void)gather(l);
         break;
+    case RANK_CALL_PEAKS_TAKE:
+    case RANK_CALL_PEAKS_BRING:
+    case RANK_CALL_PEAKS_LOOK:
+        (void)shared_peaks_answer(&l->peaks, l->part, o);
+        break;
     case RANK_CALL_DROP:
         drop(l);
         break;
@@ -481,9 +489,62 @@ void led_run_look_for_overlaps(dem_simulation *part)
     overlap_look(&whole->overlap, &whole->model->lattice, part->t, x);
 }
 
+/* ---- peaks ---- */
+
+static dem_status pass_peaks(led_run *l, rank_call_kind what, int number)
+{
+    const rank_call o = rank_call_send(&l->ranks, (rank_call){.kind = what, .number = number});
+    enter(l);
+    const dem_status status = shared_peaks_answer(&l->peaks, l->part, &o);
+    leave(l);
+    return status;
+}
+
+/* Those of the program get a number when they are first looked for. */
+static dem_status send_peaks(led_run *l, dem_peaks *peaks)
+{
+    int k = shared_peaks_number(&l->peaks, peaks);
+    const bool is_known = k >= 0 && l->peaks.part[k] != NULL;
+    if (k < 0) k = shared_peaks_number(&l->peaks, NULL);
+    CHECK(k >= 0, DEM_ERROR_ARGUMENT, "a run has more than %d peaks", OBSERVERS_MOST);
+    l->peaks.whole[k] = peaks;
+    peaks->away = l->whole;
+    if (!is_known) TRY(pass_peaks(l, RANK_CALL_PEAKS_TAKE, k));
+    peaks_give_up(peaks);
+    return DEM_OK;
+}
+
+dem_status led_run_look_for_peaks(const dem_simulation *whole, dem_peaks *peaks)
+{
+    led_run *l = whole->leads;
+    TRY(send_peaks(l, peaks));
+    return pass_peaks(l, RANK_CALL_PEAKS_LOOK, shared_peaks_number(&l->peaks, peaks));
+}
+
+dem_status led_run_bring_peaks(const dem_simulation *whole, dem_peaks *peaks)
+{
+    led_run *l = whole->leads;
+    return pass_peaks(l, RANK_CALL_PEAKS_BRING, shared_peaks_number(&l->peaks, peaks));
+}
+
+void led_run_forget_peaks(const dem_simulation *whole, const dem_peaks *peaks)
+{
+    shared_peaks *s = &whole->leads->peaks;
+    s->whole[shared_peaks_number(s, peaks)] = NULL;
+}
+
+/* Before the parts end. */
+static dem_status bring_all_peaks(led_run *l)
+{
+    for (int k = 0; k < OBSERVERS_MOST; k++)
+        if (l->peaks.whole[k] != NULL && l->peaks.whole[k]->nodes == NULL) TRY(pass_peaks(l, RANK_CALL_PEAKS_BRING, k));
+    return DEM_OK;
+}
+
 static dem_status begin_parts(led_run *l, dem_checkpoint *entries, const dem_checkpoint *checkpoint)
 {
     if (l->part != NULL) {
+        TRY(bring_all_peaks(l));
         (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_DROP});
         drop(l);
     }
@@ -581,6 +642,9 @@ static dem_status lead(led_run *l, const dem_checkpoint *checkpoint)
 void led_run_destroy(led_run *l)
 {
     if (l == NULL) return;
+    (void)bring_all_peaks(l);
+    for (int k = 0; k < OBSERVERS_MOST; k++)
+        if (l->peaks.whole[k] != NULL) l->peaks.whole[k]->away = NULL;
     (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_DROP});
     drop(l);
     free_run(l);

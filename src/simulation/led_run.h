@@ -45,6 +45,13 @@ dem_status led_run_spread(const dem_simulation *whole, led_run_getter *get, int 
 /** Puts the state that is seen into `frame`. */
 void led_run_gather(dem_simulation *whole);
 
+/** All parts look for larger peaks; from then on they have them, and the program's are given up. */
+dem_status led_run_look_for_peaks(const dem_simulation *whole, dem_peaks *peaks);
+
+/** Brings the peaks that the parts have back, for as long as none looks; and tells them that nobody wants theirs. */
+dem_status led_run_bring_peaks(const dem_simulation *whole, dem_peaks *peaks);
+void led_run_forget_peaks(const dem_simulation *whole, const dem_peaks *peaks);
+
 /** Looks for overlaps in the whole, in the midst of an advance of all parts. */
 void led_run_look_for_overlaps(dem_simulation *part);
 

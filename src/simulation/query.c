@@ -326,7 +326,7 @@ dem_status dem_simulation_force_at(const dem_simulation *s, dem_index spring, do
     TRY(status_check_number("spring", spring, d != NULL ? d->n_springs : l->n_springs));
     const double *x = all_seen_of(s);
     const dem_index k = d != NULL ? sorted_find(d->spring, l->n_springs, spring) : spring;
-    const bool is_here = k >= 0 && domain_owns_element(d, &l->ends[2 * k], 2);
+    const bool is_here = k >= 0 && domain_owns(d, domain_lowest(&l->ends[2 * k], 2));
     double force = is_here ? force_of(s, k, x) : 0.0;
     reduce_report(s->model->ranks, is_here, &force, 1);
     *out = force;

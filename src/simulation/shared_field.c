@@ -42,11 +42,11 @@ static dem_status fill_node_damage(const dem_simulation *s, void *out)
     return dem_simulation_damage(s, NULL, out);
 }
 
-/* What a field has a row of: by how many nodes such an item has. */
-enum { NODES = 1, SPRINGS = 2, TRIANGLES = 3 };
+/* What a field has a row of. */
+enum of { NODES, SPRINGS, TRIANGLES };
 
 static const struct field {
-    int of;
+    enum of of;
     size_t size; /* bytes of a row */
     dem_status (*fill)(const dem_simulation *s, void *out);
 } fields[] = {
@@ -59,40 +59,16 @@ static const struct field {
     [SHARED_FIELD_NODE_DAMAGE] = {NODES, sizeof(double), fill_node_damage},
 };
 
-/* What is here of the field. */
-typedef struct part_of_field {
-    gather_items items;
-    unsigned char *owns; /* [n] of springs or triangles */
-    void *rows;          /* [n] */
-} part_of_field;
-
-static dem_status mark_owned(part_of_field *p, const domain *d, const dem_index *nodes, int n)
+static gather_items items_of(const dem_model *m, enum of of)
 {
-    p->owns = malloc((size_t)p->items.n + 1);
-    CHECK_MEMORY(p->owns);
-    for (dem_index k = 0; k < p->items.n; k++) p->owns[k] = domain_owns_element(d, nodes + n * k, n);
-    p->items.is_own = p->owns;
-    return DEM_OK;
+    if (of == NODES) return gather_nodes(m->domain);
+    return of == SPRINGS ? gather_springs(m->domain, &m->lattice) : gather_triangles(m->domain, &m->lattice);
 }
 
-static dem_status list_items(part_of_field *p, const dem_model *m, int of)
+static dem_status allocate(void **rows, size_t size)
 {
-    const dem_lattice *l = &m->lattice;
-    const domain *d = m->domain;
-    const gather_items items[] = {
-        [NODES] = gather_nodes(d),
-        [SPRINGS] = {.n = l->n_springs, .n_whole = d->n_springs, .number = d->spring},
-        [TRIANGLES] = {.n = l->n_triangles, .n_whole = d->n_triangles, .number = d->triangle},
-    };
-    p->items = items[of];
-    return of == NODES ? DEM_OK : mark_owned(p, d, of == SPRINGS ? l->ends : l->triangles, of);
-}
-
-static dem_status begin(part_of_field *p, const dem_model *m, const struct field *f)
-{
-    TRY(list_items(p, m, f->of));
-    p->rows = malloc((size_t)p->items.n * f->size + 1);
-    CHECK_MEMORY(p->rows);
+    *rows = malloc(size + 1);
+    CHECK_MEMORY(*rows);
     return DEM_OK;
 }
 
@@ -100,11 +76,11 @@ dem_status shared_field_gather(const dem_simulation *part, shared_field_kind fie
 {
     const ranks *r = part->model->ranks;
     const struct field *f = &fields[field];
-    part_of_field p = {0};
-    dem_status status = reduce_status(r, begin(&p, part->model, f), 0.0);
-    if (status == DEM_OK) status = reduce_status(r, f->fill(part, p.rows), 0.0);
-    if (status == DEM_OK) status = gather_rows(r, &p.items, f->size, p.rows, out);
-    free(p.owns);
-    free(p.rows);
+    const gather_items items = items_of(part->model, f->of);
+    void *rows;
+    dem_status status = reduce_status(r, allocate(&rows, (size_t)items.n * f->size), 0.0);
+    if (status == DEM_OK) status = reduce_status(r, f->fill(part, rows), 0.0);
+    if (status == DEM_OK) status = gather_rows(r, &items, f->size, rows, out);
+    free(rows);
     return status;
 }

@@ -57,31 +57,47 @@ static int owner_of(dem_index k, int n_ranks)
     return (int)(((uint64_t)k * 2654435761u >> 7) % (uint64_t)n_ranks);
 }
 
-static void gather_many(const ranks *r, void *context)
+typedef struct many {
+    unsigned char *whole; /* [MANY][SIZE] of rank 0 */
+    bool is_good[MOST_RANKS];
+} many;
+
+static unsigned char byte_of(dem_index k, dem_index q)
 {
-    unsigned char *whole = context, *is_own = malloc(MANY), *rows = malloc((size_t)MANY * SIZE);
+    return (unsigned char)(k >> 4 * q);
+}
+
+static void pass_many(const ranks *r, void *context)
+{
+    many *m = context;
+    unsigned char *whole = r->rank == 0 ? m->whole : NULL, *is_own = malloc(MANY), *rows = malloc((size_t)MANY * SIZE);
     dem_index *number = malloc(MANY * sizeof *number), n = 0;
     for (dem_index k = 0; k < MANY; k++) {
         const bool owns = owner_of(k, r->size) == r->rank;
         if (!owns && k % 3 != r->rank) continue;
-        for (dem_index q = 0; q < SIZE; q++) rows[SIZE * n + q] = owns ? (unsigned char)(k >> 4 * q) : 0xee;
+        for (dem_index q = 0; q < SIZE; q++) rows[SIZE * n + q] = owns ? byte_of(k, q) : 0xee;
         is_own[n] = owns;
         number[n++] = k;
     }
-    const gather_items items = {n, MANY, number, is_own};
-    assert_int_equal(gather_rows(r, &items, SIZE, rows, r->rank == 0 ? whole : NULL), DEM_OK);
+    const gather_items items = {.n = n, .n_whole = MANY, .number = number, .is_own = is_own};
+    m->is_good[r->rank] = gather_rows(r, &items, SIZE, rows, whole) == DEM_OK;
+    memset(rows, 0xee, (size_t)MANY * SIZE);
+    if (gather_back(r, &items, SIZE, whole, rows) != DEM_OK) m->is_good[r->rank] = false;
+    for (dem_index k = 0; k < SIZE * n; k++)
+        if (rows[k] != byte_of(number[k / SIZE], k % SIZE)) m->is_good[r->rank] = false;
     free(number);
     free(is_own);
     free(rows);
 }
 
-TEST(many_rows_come_piece_by_piece)
+TEST(many_rows_come_piece_by_piece_and_go_back)
 {
     for (int n_ranks = 1; n_ranks <= MOST_RANKS; n_ranks++) {
         CLEANUP(free_memory) unsigned char *whole = calloc(MANY, SIZE);
-        rank_threads_run(n_ranks, gather_many, whole);
-        for (dem_index k = 0; k < MANY; k++)
-            for (dem_index q = 0; q < SIZE; q++)
-                if (whole[SIZE * k + q] != (unsigned char)(k >> 4 * q)) fail_msg("%d ranks: item %d", n_ranks, (int)k);
+        many m = {.whole = whole};
+        rank_threads_run(n_ranks, pass_many, &m);
+        for (int k = 0; k < n_ranks; k++) assert_true(m.is_good[k]);
+        for (dem_index k = 0; k < SIZE * MANY; k++)
+            if (whole[k] != byte_of(k / SIZE, k % SIZE)) fail_msg("%d ranks: item %d", n_ranks, (int)(k / SIZE));
     }
 }

@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Peaks as a program has them: an observer that looks for larger ones at every so-many-th accepted step, and puts them
+ * into checkpoints. In a run that ranks make they look (shared_peaks.c), and the entries are here while a checkpoint or
+ * the program has a use for them. Files of peaks are in src/output/peaks_file.c. */
+#include "simulation/peaks.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/checkpoint_entries.h"
+#include "base/status.h"
+#include "base/struct_size.h"
+#include "simulation/led_run.h"
+
+/* From the ranks that have them. */
+static dem_status bring(dem_peaks *p)
+{
+    return p->nodes == NULL ? led_run_bring_peaks(p->away, p) : DEM_OK;
+}
+
+/* As the program asks for them, which knows nothing of ranks. */
+static const dem_peaks *brought(const dem_peaks *p)
+{
+    (void)bring((dem_peaks *)p);
+    return p;
+}
+
+/* Those whose number is a multiple of `every` are looked at. */
+static dem_index steps_since_look(const dem_peaks *p, const dem_simulation *simulation)
+{
+    dem_counts counts = {.struct_size = sizeof counts};
+    (void)dem_simulation_counts(simulation, &counts);
+    return counts.steps % p->every;
+}
+
+/* The observer's step. A program that was built with a header without `step_every` shows all of them. */
+static dem_status look(void *context, const dem_simulation *simulation)
+{
+    dem_peaks *p = context;
+    if (steps_since_look(p, simulation) > 0) return DEM_OK;
+    const dem_status status =
+        simulation->leads != NULL ? led_run_look_for_peaks(simulation, p) : peaks_look(p, simulation);
+    p->is_new = false;
+    return status;
+}
+
+/* Puts what a checkpoint contains of the peaks into it, or gets it from there. */
+static dem_status pass(dem_peaks *p, const checkpoint_entries_way *way)
+{
+    TRY(checkpoint_entries_pass(way, "peaks.left", &p->left, sizeof p->left));
+    TRY(checkpoint_entries_pass(way, "peaks.nodes", p->nodes, (size_t)p->n_nodes * sizeof *p->nodes));
+    return checkpoint_entries_pass(way, "peaks.springs", p->springs, (size_t)p->n_springs * sizeof *p->springs);
+}
+
+/* The observer's checkpoint. */
+static dem_status remember(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
+{
+    const checkpoint_entries_way way = {.into = checkpoint};
+    dem_peaks *p = context;
+    p->left = p->every - 1 - steps_since_look(p, simulation);
+    TRY(bring(p));
+    return pass(p, &way);
+}
+
+/* ---- the largest ---- */
+
+/* Sizes of entries by their number. */
+typedef double (*size_of)(const dem_peaks *p, dem_index k);
+
+static double node_size(const dem_peaks *p, dem_index i)
+{
+    return p->nodes[i].von_mises;
+}
+
+static double spring_size(const dem_peaks *p, dem_index k)
+{
+    return fabs(p->springs[k].strain);
+}
+
+/* The n largest of `count`, those of equal size in the order of their numbers, by insertion into a list that descends.
+ * Entries of size 0 have no peak. With n small this is one pass over all. */
+static dem_index rank(const dem_peaks *p, size_of size, dem_index count, dem_index n, dem_index *list)
+{
+    dem_index filled = 0;
+    for (dem_index k = 0; k < count; k++) {
+        if (!(size(p, k) > 0.0) || n <= 0) continue;
+        if (filled == n && size(p, k) <= size(p, list[n - 1])) continue;
+        dem_index q = filled < n ? filled++ : n - 1;
+        for (; q > 0 && size(p, list[q - 1]) < size(p, k); q--) list[q] = list[q - 1];
+        list[q] = k;
+    }
+    return filled;
+}
+
+/* ---- public ---- */
+
+dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index every)
+{
+    CHECK(out != NULL && model != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_create: %s is NULL", out ? "model" : "out");
+    CHECK(every >= 1, DEM_ERROR_ARGUMENT, "peaks are looked for every %lld steps; it must be 1 or more",
+          (long long)every);
+    dem_model_size size = {.struct_size = sizeof size};
+    TRY(dem_model_sizes(model, &size));
+    dem_peaks *p = calloc(1, sizeof *p);
+    CHECK_MEMORY(p);
+    *p = (dem_peaks){.n_nodes = size.n_nodes, .n_springs = size.n_springs, .every = every, .is_new = true};
+    const dem_status status = peaks_make_room(p);
+    if (status == DEM_OK)
+        *out = p;
+    else
+        dem_peaks_destroy(p);
+    return status;
+}
+
+/* A checkpoint of a run with another `every` may count further down than this one: it is refused. */
+dem_status dem_peaks_resume(dem_peaks **out, const dem_model *model, dem_index every, const dem_checkpoint *checkpoint)
+{
+    const checkpoint_entries_way way = {.from = checkpoint};
+    dem_peaks *p;
+    CHECK(checkpoint != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_resume: checkpoint is NULL");
+    TRY(dem_peaks_create(&p, model, every));
+    dem_status status = pass(p, &way);
+    p->is_new = false;
+    if (status == DEM_OK && (p->left < 0 || p->left >= every))
+        status = status_fail(DEM_ERROR_IO, "the checkpoint has %lld steps until the next look at peaks, of %lld",
+                             (long long)p->left, (long long)every);
+    if (status == DEM_OK)
+        *out = p;
+    else
+        dem_peaks_destroy(p);
+    return status;
+}
+
+void dem_peaks_destroy(dem_peaks *peaks)
+{
+    if (peaks == NULL) return;
+    if (peaks->away != NULL) led_run_forget_peaks(peaks->away, peaks);
+    peaks_give_up(peaks);
+    free(peaks->stress);
+    free(peaks->strain);
+    free(peaks);
+}
+
+dem_status dem_peaks_observer(dem_peaks *peaks, dem_observer *out)
+{
+    CHECK(peaks != NULL && out != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_observer: %s is NULL", peaks ? "out" : "peaks");
+    const dem_observer own = {.step = look, .checkpoint = remember, .context = peaks, .step_every = peaks->every};
+    return struct_size_write(&STRUCT_KIND(dem_observer), out, &own);
+}
+
+const dem_node_peak *dem_peaks_nodes(const dem_peaks *peaks)
+{
+    return brought(peaks)->nodes;
+}
+
+const dem_spring_peak *dem_peaks_springs(const dem_peaks *peaks)
+{
+    return brought(peaks)->springs;
+}
+
+dem_index dem_peaks_most_stressed_nodes(const dem_peaks *peaks, dem_index n, dem_index *nodes)
+{
+    return rank(brought(peaks), node_size, peaks->n_nodes, n, nodes);
+}
+
+dem_index dem_peaks_most_strained_springs(const dem_peaks *peaks, dem_index n, dem_index *list)
+{
+    return rank(brought(peaks), spring_size, peaks->n_springs, n, list);
+}

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Peaks as simulations know them: in a run that ranks make each rank has those of its part. */
+#ifndef DEM_SIMULATION_PEAKS_H
+#define DEM_SIMULATION_PEAKS_H
+
+#include <stdbool.h>
+
+#include <dem/dem.h>
+
+struct dem_peaks {
+    dem_index n_nodes, n_springs;
+    dem_index every;      /* accepted steps between looks, */
+    dem_index left;       /* so many are passed over before the next, as checkpoints have it */
+    bool is_new;          /* no node and no spring has a peak yet */
+    dem_node_peak *nodes; /* [n_nodes] NULL, as the next one: ranks alone have them */
+    dem_spring_peak *springs;
+    double *stress;             /* [n_nodes][3] scratch, made by the first look */
+    double *strain;             /* [n_springs] likewise */
+    const dem_simulation *away; /* the simulation that leads the run whose ranks have them; NULL: none do */
+};
+
+/** Makes room for the entries, which are 0, unless they are there.  \return DEM_ERROR_MEMORY */
+dem_status peaks_make_room(dem_peaks *p);
+
+/** Frees the entries, which others have: views of them end. */
+void peaks_give_up(dem_peaks *p);
+
+/** Looks at all nodes and springs of a simulation, at the time that is seen. */
+dem_status peaks_look(dem_peaks *p, const dem_simulation *simulation);
+
+#endif
