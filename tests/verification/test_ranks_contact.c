@@ -5,18 +5,15 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "ask.h"
+#include "rank_runs.h"
 #include "scattered.h"
 #include "support.h"
 
-#include "base/checkpoint_entries.h"
 #include "domain/partition.h"
-#include "harness/rank_threads.h"
-#include "model/domain_model.h"
-#include "simulation/led_run.h"
 #include "simulation/private.h"
-#include "simulation/rank_shares.h"
 
-enum { MOST_RANKS = 7, N_STOPS = 3, STEP_RINGS = 3, TEXT = 256, FLOOR_POINTS = 61 };
+enum { STEP_RINGS = 3, FLOOR_POINTS = 61 };
 
 static const double spacing = 2.5e-3;
 static bool is_long = false;
@@ -33,13 +30,10 @@ typedef struct kind {
     double restitution, friction;
     double damping_time; /* s, of springs */
     double mass_damping; /* 1/s */
-    bool is_dropped;     /* from rest, and soon as fast as others */
 } kind;
 
 typedef struct scene {
-    dem_model *model;
-    dem_options options;
-    double t_end;      /* s */
+    rank_runs_scene run;
     dem_index *driven; /* nodes */
     dem_boundary drive;
 } scene;
@@ -66,7 +60,7 @@ static dem_lattice make_block(const kind *k)
     dem_lattice l = support_rectangle(0.07, 0.045, spacing, &rubber);
     dem_lattice_move(&l, 0.02, (double[]){0.0, 0.0});
     dem_lattice_move(&l, 0.0, (double[]){0.0, 2e-4 - support_bottom(&l) + (k->ground == PLANE ? 0.0 : 3e-4)});
-    if (!k->is_dropped) assert_ok(dem_lattice_launch(&l, down));
+    assert_ok(dem_lattice_launch(&l, down));
     return l;
 }
 
@@ -77,7 +71,7 @@ static void drive(scene *s, const dem_lattice *l, bool by_force)
     dem_index n = 0;
     s->driven = malloc((size_t)l->n_nodes * sizeof *s->driven);
     for (dem_index i = 0; i < l->n_nodes; i++) {
-        const bool touches = dem_model_lattice(s->model)->flags[i] & DEM_NODE_CONTACT;
+        const bool touches = dem_model_lattice(s->run.model)->flags[i] & DEM_NODE_CONTACT;
         if (by_force ? l->x[2 * i] < -0.02 : !touches && l->x[2 * i + 1] < 0.012 && fabs(l->x[2 * i]) < 0.01)
             s->driven[n++] = i;
     }
@@ -86,8 +80,14 @@ static void drive(scene *s, const dem_lattice *l, bool by_force)
                                    .value = {1.5, -4.0, 0.0});
     if (by_force) vec2_put(s->drive.value, 0, (vec2){900.0, -3000.0});
     if (by_force) s->drive.ramp = 1e-4;
-    s->options.boundaries = &s->drive;
-    s->options.n_boundaries = 1;
+    s->run.options.boundaries = &s->drive;
+    s->run.options.n_boundaries = 1;
+}
+
+static bool has_contacts(const dem_simulation *s, const rank_runs_outcome *so_far)
+{
+    (void)so_far;
+    return ask_state(s).n_contacts > 0;
 }
 
 /* \param height  m, by how much it is lifted */
@@ -103,244 +103,41 @@ static void open_scene(scene *s, const kind *k, dem_method method, double height
     CLEANUP(dem_lattice_free) dem_lattice l = make_block(k);
     make_floor(k->ground == SHAKEN ? BUMPS : k->ground, points);
     dem_lattice_move(&l, 0.0, (double[]){0.0, height});
-    *s = (scene){.model = support_model(&l, &floor, 1), .options = dem_options_default(), .t_end = 4e-4};
-    s->options.method = method;
-    s->options.contact = k->contact;
-    s->options.mass_damping = k->mass_damping;
-    s->options.checkpoint_steps = 40;
-    s->options.gravity[1] = k->is_dropped ? -1.6e4 : -9.81;
+    *s = (scene){.run = {.model = support_model(&l, &floor, 1),
+                         .options = dem_options_default(),
+                         .t_end = 4e-4,
+                         .keeps = has_contacts}};
+    s->run.options.method = method;
+    s->run.options.contact = k->contact;
+    s->run.options.mass_damping = k->mass_damping;
+    s->run.options.checkpoint_steps = 40;
+    s->run.options.gravity[1] = -9.81;
     if (k->ground == BUMPS || k->ground == SHAKEN) drive(s, &l, k->ground == BUMPS);
 }
 
 static void close_scene(scene *s)
 {
-    dem_model_destroy(s->model);
+    dem_model_destroy(s->run.model);
     free(s->driven);
 }
 
-/* ---- runs ---- */
+/* ---- the same bits ---- */
 
-/* All that is seen at a stop, but for the nodes. */
-typedef struct view {
-    double t, step;
-    dem_counts counts;
-    double totals[STATE_TOTALS], sums[3]; /* J */
-    dem_energy energy;
-    dem_obstacle_load load;
-    dem_index n_contacts;
-    dem_contact first, last;
-} view;
-
-typedef struct outcome {
-    view stops[N_STOPS];
-    double *x, *v; /* [N_STOPS][n_nodes][2] of the whole */
-    dem_index n_nodes, n_events, capacity;
-    dem_event *events;
-    bool asks;            /* at every event what is seen then, */
-    view *at_events;      /* [n_events] which is here; NULL: it does not */
-    dem_checkpoint *kept; /* the first one with a closed contact; NULL: there was none, or it is not looked for */
-    double kept_t;        /* s */
-    dem_index n_steps, n_frames; /* that observers have seen */
-    double n_common[2];          /* nodes of others that a rank integrates, at most, at the start and at the end */
-    char failure[TEXT];          /* empty: none */
-} outcome;
-
-static void make_outcome(outcome *o, dem_index n)
+static void share(const scene *s, int n_rings, int n_ranks, const int32_t *owner, const rank_runs_outcome *whole)
 {
-    *o = (outcome){.n_nodes = n};
-    o->x = calloc(2 * N_STOPS * (size_t)n, sizeof *o->x);
-    o->v = calloc(2 * N_STOPS * (size_t)n, sizeof *o->v);
-}
-
-static void free_outcome(outcome *o)
-{
-    free(o->x);
-    free(o->v);
-    free(o->events);
-    free(o->at_events);
-    dem_checkpoint_destroy(o->kept);
-}
-
-static dem_status look_at_contacts(const dem_simulation *s, view *to)
-{
-    to->load.struct_size = sizeof to->load;
-    to->first.struct_size = to->last.struct_size = sizeof to->first;
-    dem_status status = dem_simulation_obstacle(s, 0, &to->load);
-    if (status == DEM_OK && to->n_contacts > 0) status = dem_simulation_contact(s, 0, &to->first);
-    if (status == DEM_OK && to->n_contacts > 0) status = dem_simulation_contact(s, to->n_contacts - 1, &to->last);
-    return status;
-}
-
-/* \param[out] x, v  as they are seen */
-static dem_status look_at_all(const dem_simulation *s, view *to, const double **x, const double **v)
-{
-    dem_state state = {.struct_size = sizeof state};
-    to->counts.struct_size = sizeof to->counts;
-    dem_status status = dem_simulation_state(s, &state);
-    if (status == DEM_OK) status = dem_simulation_counts(s, &to->counts);
-    to->energy.struct_size = sizeof to->energy;
-    if (status == DEM_OK) status = dem_simulation_energy(s, &to->energy);
-    if (status != DEM_OK) return status;
-    const contact_ledger *ledger = &(s->leads != NULL ? led_run_part(s->leads) : s)->automaton.set.ledger;
-    const exact_sum *sums[] = {&ledger->impact, &ledger->projection, &ledger->work};
-    to->t = state.t;
-    to->step = state.step;
-    to->n_contacts = state.n_contacts;
-    for (int k = 0; k < 3; k++) to->sums[k] = exact_sum_value(sums[k]);
-    for (int k = 0; k < STATE_TOTALS; k++)
-        if (k != STATE_OBSTACLE || state_has_total(&s->layout, STATE_OBSTACLE))
-            to->totals[k] = state_total_of(&s->layout, s->seen, (state_total)k);
-    *x = state.x;
-    *v = state.v;
-    return look_at_contacts(s, to);
-}
-
-/* Ranks write the rows of their own nodes. */
-static dem_status look(const dem_simulation *s, const domain *d, outcome *o, int stop)
-{
-    const dem_index first = 2 * stop * o->n_nodes;
-    const double *x, *v;
-    const dem_status status = look_at_all(s, &o->stops[stop], &x, &v);
-    for (dem_index i = 0; i < s->layout.n_nodes && status == DEM_OK; i++) {
-        if (d != NULL && !d->is_own[i]) continue;
-        memcpy(o->x + first + 2 * domain_number(d, i), x + 2 * i, 2 * sizeof *x);
-        memcpy(o->v + first + 2 * domain_number(d, i), v + 2 * i, 2 * sizeof *v);
-    }
-    return status;
-}
-
-static dem_status note_event(void *context, const dem_simulation *s, const dem_event *event)
-{
-    outcome *o = context;
-    const double *x, *v;
-    if (o->n_events == o->capacity) {
-        o->capacity = 2 * o->capacity + 64;
-        o->events = realloc(o->events, (size_t)o->capacity * sizeof *o->events);
-        if (o->asks) o->at_events = realloc(o->at_events, (size_t)o->capacity * sizeof *o->at_events);
-    }
-    o->events[o->n_events++] = *event;
-    if (!o->asks) return DEM_OK;
-    view *to = memset(&o->at_events[o->n_events - 1], 0, sizeof *to);
-    return look_at_all(s, to, &x, &v);
-}
-
-static dem_status count_step(void *context, const dem_simulation *s)
-{
-    (void)s;
-    ((outcome *)context)->n_steps++;
-    return DEM_OK;
-}
-
-static dem_status count_frame(void *context, const dem_simulation *s)
-{
-    (void)s;
-    ((outcome *)context)->n_frames++;
-    return DEM_OK;
-}
-
-static double count_common(const dem_simulation *s, bool is_led)
-{
-    double least[RANK_SHARES_ALL], most[RANK_SHARES_ALL] = {0.0};
-    if (is_led) dem_private_shares(s, least, most);
-    return most[RANK_SHARES_COMMON];
-}
-
-static dem_status keep_checkpoint(void *context, const dem_simulation *s, dem_checkpoint *checkpoint)
-{
-    outcome *o = context;
-    dem_state state = {.struct_size = sizeof state};
-    const dem_status status = dem_simulation_state(s, &state);
-    if (status != DEM_OK || o->kept != NULL || state.n_contacts == 0) return status;
-    o->kept_t = state.t;
-    assert_ok(dem_checkpoint_create(&o->kept));
-    return checkpoint_entries_copy(o->kept, checkpoint);
-}
-
-/* \param leads  ranks that make the run of rank 0, which has the whole; NULL: it makes its own
- * \param from   of a checkpoint; NULL: the run begins */
-static dem_status run_led(const dem_model *model, const scene *sc, const ranks *leads, const outcome *from, outcome *o)
-{
-    dem_simulation *s = NULL;
-    const dem_checkpoint *checkpoint = from != NULL ? from->kept : NULL;
-    const dem_observer observer =
-        SIZED(dem_observer, .context = o, .interval = sc->t_end / 29.0, .frame = count_frame, .step = count_step,
-              .event = note_event, .checkpoint = o->asks ? keep_checkpoint : NULL);
-    dem_status status = from != NULL ? dem_simulation_resume(&s, model, &sc->options, checkpoint)
-                                     : dem_simulation_create(&s, model, &sc->options);
-    if (status == DEM_OK && leads != NULL) status = dem_private_lead(s, leads, &sc->options, checkpoint);
-    if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
-    if (status == DEM_OK) o->n_common[0] = count_common(s, leads != NULL);
-    for (int k = 0; k < N_STOPS && status == DEM_OK; k++) {
-        const double t = sc->t_end * (k + 1) / N_STOPS;
-        if (from != NULL && t < from->kept_t) continue;
-        status = dem_simulation_advance(s, t);
-        if (status == DEM_OK) status = look(s, model->domain, o, k);
-    }
-    if (status == DEM_OK) o->n_common[1] = count_common(s, leads != NULL);
-    dem_simulation_destroy(s);
-    return status;
-}
-
-static dem_status run(const dem_model *model, const scene *sc, outcome *o)
-{
-    return run_led(model, sc, NULL, NULL, o);
-}
-
-/* Of all ranks. */
-typedef struct shared_run {
-    const scene *scene;
-    const int32_t *owner;
-    int n_rings;       /* of ghosts */
-    outcome *outcomes; /* [ranks] whose x and v are one */
-} shared_run;
-
-static void run_rank(const ranks *r, void *context)
-{
-    shared_run *c = context;
-    dem_model *model = NULL;
-    outcome *o = &c->outcomes[r->rank];
-    dem_status status = domain_model_create(&model, r, c->scene->model,
-                                            &(domain_model_shares){.owner = c->owner, .n_rings = c->n_rings});
-    if (status == DEM_OK) status = run(model, c->scene, o);
-    if (status != DEM_OK) (void)snprintf(o->failure, TEXT, "%s", dem_status_message());
-    dem_model_destroy(model);
-}
-
-static void assert_same_outcome(const outcome *one, const outcome *whole)
-{
-    const size_t size = 2 * N_STOPS * (size_t)whole->n_nodes * sizeof *whole->x;
-    assert_string_equal(one->failure, "");
-    for (int k = 0; k < N_STOPS; k++) assert_memory_equal(&one->stops[k], &whole->stops[k], sizeof one->stops[k]);
-    assert_memory_equal(one->x, whole->x, size);
-    assert_memory_equal(one->v, whole->v, size);
-    assert_int_equal(one->n_events, whole->n_events);
-    for (dem_index k = 0; k < whole->n_events; k++)
-        assert_memory_equal(&one->events[k], &whole->events[k], sizeof *whole->events);
-}
-
-static void share(const scene *s, int n_rings, int n_ranks, const int32_t *owner, const outcome *whole)
-{
-    outcome all[MOST_RANKS];
-    make_outcome(&all[0], whole->n_nodes);
-    for (int k = 1; k < n_ranks; k++) all[k] = all[0];
-    shared_run c = {s, owner, n_rings, all};
-    rank_threads_run(n_ranks, run_rank, &c);
-    for (int k = 0; k < n_ranks; k++) assert_same_outcome(&all[k], whole);
-    for (int k = 1; k < n_ranks; k++) free(all[k].events);
-    free_outcome(&all[0]);
+    rank_runs_assert_shared(&s->run, n_ranks, &(domain_model_shares){.owner = owner, .n_rings = n_rings}, NULL, whole);
 }
 
 /* In scattered tiles, and in compact domains where there is more than one number of ranks. */
 static void check(const kind *k, dem_method method, int n, const int *numbers)
 {
     scene s;
-    outcome whole;
     open_scene(&s, k, method, 0.0);
-    const dem_lattice *l = dem_model_lattice(s.model);
+    const dem_lattice *l = dem_model_lattice(s.run.model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
-    make_outcome(&whole, l->n_nodes);
-    assert_ok(run(s.model, &s, &whole));
-    assert_true(whole.n_events > 30);
+    rank_runs_outcome whole = rank_runs_alone(&s.run);
+    assert_string_equal(whole.message, "");
+    assert_true(whole.n_notes > 30);
     for (int p = 0; p < n; p++) {
         scatter(l, 4.1 * spacing, numbers[p], owner);
         share(&s, STEP_RINGS, numbers[p], owner, &whole);
@@ -348,7 +145,7 @@ static void check(const kind *k, dem_method method, int n, const int *numbers)
         assert_ok(partition_bisect(l, numbers[p], owner));
         share(&s, numbers[p] % 2 == 0 ? STEP_RINGS : 1, numbers[p], owner, &whole);
     }
-    free_outcome(&whole);
+    rank_runs_free_outcome(&whole);
     close_scene(&s);
 }
 
@@ -367,96 +164,23 @@ static void check_both(kind k)
 
 /* ---- runs that rank 0 leads ---- */
 
-typedef struct led_scene {
-    const scene *scene;
-    const outcome *from; /* of a checkpoint; NULL: the run begins */
-    outcome *led;
-} led_scene;
-
-static void lead_as_rank(const ranks *r, void *context)
-{
-    const led_scene *c = context;
-    if (r->rank > 0) {
-        assert_int_equal(dem_private_follow(r), 75);
-        return;
-    }
-    if (run_led(c->scene->model, c->scene, r, c->from, c->led) != DEM_OK)
-        (void)snprintf(c->led->failure, TEXT, "%s", dem_status_message());
-    dem_private_dismiss(r, 75);
-}
-
-/* What is seen at events, too. A run that goes on has the last events and stops of one that does not. */
-static void assert_same_led(const outcome *led, const outcome *whole, bool is_resumed)
-{
-    const dem_index before = whole->n_events - led->n_events;
-    assert_string_equal(led->failure, "");
-    assert_true(is_resumed ? before > 0 && led->n_events > 0 : before == 0);
-    if (!is_resumed) assert_true(led->n_steps == whole->n_steps && led->n_frames == whole->n_frames);
-    for (dem_index k = 0; k < led->n_events; k++) {
-        assert_memory_equal(&led->events[k], &whole->events[before + k], sizeof *whole->events);
-        assert_memory_equal(&led->at_events[k], &whole->at_events[before + k], sizeof *whole->at_events);
-    }
-    for (int k = 0; k < N_STOPS; k++) {
-        const size_t first = 2 * (size_t)k * (size_t)whole->n_nodes, size = 2 * (size_t)whole->n_nodes * sizeof(double);
-        if (is_resumed && whole->stops[k].t < whole->kept_t) continue;
-        assert_memory_equal(&led->stops[k], &whole->stops[k], sizeof led->stops[k]);
-        assert_memory_equal(led->x + first, whole->x + first, size);
-        assert_memory_equal(led->v + first, whole->v + first, size);
-    }
-}
-
-/* \return by how much more nodes a rank has as common ones at the end */
-static double lead(const scene *s, int n_ranks, const outcome *from, const outcome *whole)
-{
-    outcome led;
-    make_outcome(&led, whole->n_nodes);
-    led.asks = true;
-    led_scene c = {s, from, &led};
-    rank_threads_run(n_ranks, lead_as_rank, &c);
-    assert_same_led(&led, whole, from != NULL);
-    free_outcome(&led);
-    return led.n_common[1] - led.n_common[0];
-}
-
+/* What is seen at events, too. */
 static void check_led(kind k)
 {
     static const int numbers[] = {3, 1, 7};
     for (int exact = 0; exact < 2; exact++) {
         scene s;
-        outcome whole;
         k.contact = exact ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL;
         open_scene(&s, &k, DEM_METHOD_FEHLBERG45, 0.0);
-        s.options.checkpoint_steps = 10;
-        make_outcome(&whole, dem_model_lattice(s.model)->n_nodes);
-        whole.asks = true;
-        assert_ok(run(s.model, &s, &whole));
-        assert_true(whole.n_events > 30 && whole.kept != NULL);
+        s.run.options.checkpoint_steps = 10;
+        s.run.is_seen_at_events = true;
+        rank_runs_outcome whole = rank_runs_alone(&s.run);
+        assert_true(whole.kept != NULL && whole.kept_notes > 0 && whole.n_notes > whole.kept_notes + 10);
         for (int q = 0; q < (is_long ? 3 : 1); q++) {
-            (void)lead(&s, numbers[q], NULL, &whole);
-            (void)lead(&s, numbers[q], &whole, &whole);
+            rank_runs_assert_led(&s.run, numbers[q], NULL, &whole);
+            rank_runs_assert_led(&s.run, numbers[q], &whole, &whole);
         }
-        free_outcome(&whole);
-        close_scene(&s);
-    }
-}
-
-/* Nothing is near where the body is let go, and there is no other checkpoint: at the first impact all go back there.
- * Where there are many, some are foreseen. */
-TEST(a_led_run_that_goes_back_shows_nothing_twice)
-{
-    for (int has_many = 0; has_many < 2; has_many++) {
-        scene s;
-        outcome whole;
-        const kind k = {.ground = BUMPS, .restitution = 0.5, .friction = 0.3, .is_dropped = true};
-        open_scene(&s, &k, DEM_METHOD_FEHLBERG45, 8e-3);
-        s.t_end = 1.4e-3;
-        s.options.checkpoint_steps = has_many ? 25 : 100000;
-        make_outcome(&whole, dem_model_lattice(s.model)->n_nodes);
-        whole.asks = true;
-        assert_ok(run(s.model, &s, &whole));
-        assert_true(whole.n_events > 30 && whole.n_frames == 30 && whole.n_steps > 200);
-        assert_true(lead(&s, 3, NULL, &whole) > 50.0);
-        free_outcome(&whole);
+        rank_runs_free_outcome(&whole);
         close_scene(&s);
     }
 }
@@ -478,15 +202,13 @@ TEST(a_run_with_a_motion_by_a_function_is_not_led)
                                      .most_acceleration = 1.0);
     open_scene(&s, &k, DEM_METHOD_FEHLBERG45, 0.0);
     CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
-    assert_ok(dem_lattice_append(&l, dem_model_lattice(s.model)));
-    dem_model_destroy(s.model);
-    s.model = support_model(&l, &floor, 1);
-    outcome led;
-    make_outcome(&led, l.n_nodes);
-    led_scene c = {.scene = &s, .led = &led};
-    rank_threads_run(2, lead_as_rank, &c);
-    assert_string_equal(led.failure, "rank 0 cannot lead a run with obstacles whose motion a function computes");
-    free_outcome(&led);
+    assert_ok(dem_lattice_append(&l, dem_model_lattice(s.run.model)));
+    dem_model_destroy(s.run.model);
+    s.run.model = support_model(&l, &floor, 1);
+    rank_runs_outcome led = rank_runs_make_outcome(&s.run);
+    rank_runs_led(&s.run, 2, NULL, &led);
+    assert_string_equal(led.message, "rank 0 cannot lead a run with obstacles whose motion a function computes");
+    rank_runs_free_outcome(&led);
     close_scene(&s);
 }
 
@@ -503,7 +225,7 @@ typedef struct talk {
     rank_threads_counts calls[MOST_STEPS];
     dem_index n_events[MOST_STEPS];
     int n_steps;
-    char failure[TEXT]; /* empty: none */
+    char failure[RANK_RUNS_TEXT]; /* empty: none */
 } talk;
 
 static dem_status note_calls(void *context, const dem_simulation *s)
@@ -522,12 +244,12 @@ static void talk_as_rank(const ranks *r, void *context)
     dem_simulation *s = NULL;
     const dem_observer observer = SIZED(dem_observer, .context = t, .step = note_calls);
     t->ranks = r;
-    dem_status status = domain_model_create(&model, r, t->scene->model,
+    dem_status status = domain_model_create(&model, r, t->scene->run.model,
                                             &(domain_model_shares){.owner = t->owner, .n_rings = t->n_rings});
-    if (status == DEM_OK) status = dem_simulation_create(&s, model, &t->scene->options);
+    if (status == DEM_OK) status = dem_simulation_create(&s, model, &t->scene->run.options);
     if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
-    if (status == DEM_OK) status = dem_simulation_advance(s, t->scene->t_end);
-    if (status != DEM_OK) (void)snprintf(t->failure, TEXT, "%s", dem_status_message());
+    if (status == DEM_OK) status = dem_simulation_advance(s, t->scene->run.t_end);
+    if (status != DEM_OK) (void)snprintf(t->failure, RANK_RUNS_TEXT, "%s", dem_status_message());
     dem_simulation_destroy(s);
     dem_model_destroy(model);
 }
@@ -539,8 +261,8 @@ static void listen(talk *t, dem_method method, int n_rings, double height)
     scene s;
     const kind k = {.ground = PLANE, .restitution = 0.5};
     open_scene(&s, &k, method, height);
-    s.options.checkpoint_steps = 0;
-    const dem_lattice *l = dem_model_lattice(s.model);
+    s.run.options.checkpoint_steps = 0;
+    const dem_lattice *l = dem_model_lattice(s.run.model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     assert_ok(partition_bisect(l, N_TALKING, owner));
     for (int q = 0; q < N_TALKING; q++) t[q] = (talk){.scene = &s, .owner = owner, .n_rings = n_rings};
@@ -586,9 +308,9 @@ TEST(events_cost_a_few_calls_a_step_however_many_there_are)
 typedef struct stopped_run {
     const scene *scene;
     const int32_t *owner;
-    dem_status status[MOST_RANKS];
-    dem_counts counts[MOST_RANKS];
-    char messages[MOST_RANKS][TEXT];
+    dem_status status[RANK_RUNS_MOST];
+    dem_counts counts[RANK_RUNS_MOST];
+    char messages[RANK_RUNS_MOST][RANK_RUNS_TEXT];
     int n_seen, last; /* events, and the one at which the run is stopped */
 } stopped_run;
 
@@ -604,9 +326,9 @@ static dem_status run_until_stopped(const dem_model *model, stopped_run *c, int 
 {
     dem_simulation *s = NULL;
     const dem_observer observer = SIZED(dem_observer, .context = c, .event = rank == 0 ? stop_at_last : NULL);
-    dem_status status = dem_simulation_create(&s, model, &c->scene->options);
+    dem_status status = dem_simulation_create(&s, model, &c->scene->run.options);
     if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
-    if (status == DEM_OK) status = dem_simulation_advance(s, c->scene->t_end);
+    if (status == DEM_OK) status = dem_simulation_advance(s, c->scene->run.t_end);
     c->counts[rank].struct_size = sizeof c->counts[rank];
     if (s != NULL) (void)dem_simulation_counts(s, &c->counts[rank]);
     dem_simulation_destroy(s);
@@ -617,21 +339,21 @@ static void stop_rank(const ranks *r, void *context)
 {
     stopped_run *c = context;
     dem_model *model = NULL;
-    dem_status status = domain_model_create(&model, r, c->scene->model, &(domain_model_shares){.owner = c->owner});
+    dem_status status = domain_model_create(&model, r, c->scene->run.model, &(domain_model_shares){.owner = c->owner});
     if (status == DEM_OK) status = run_until_stopped(model, c, r->rank);
     c->status[r->rank] = status;
-    (void)snprintf(c->messages[r->rank], TEXT, "%s", status != DEM_OK ? dem_status_message() : "");
+    (void)snprintf(c->messages[r->rank], RANK_RUNS_TEXT, "%s", status != DEM_OK ? dem_status_message() : "");
     dem_model_destroy(model);
 }
 
 /* All ranks of four end as a process alone does. */
 static void assert_same_end(const scene *s, int last, dem_status expected)
 {
-    const dem_lattice *l = dem_model_lattice(s->model);
+    const dem_lattice *l = dem_model_lattice(s->run.model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     stopped_run one = {.scene = s, .last = last}, all = {.scene = s, .last = last, .owner = owner};
-    assert_int_equal(run_until_stopped(s->model, &one, 0), expected);
-    (void)snprintf(one.messages[0], TEXT, "%s", expected != DEM_STOPPED ? dem_status_message() : "");
+    assert_int_equal(run_until_stopped(s->run.model, &one, 0), expected);
+    (void)snprintf(one.messages[0], RANK_RUNS_TEXT, "%s", expected != DEM_STOPPED ? dem_status_message() : "");
     assert_ok(partition_bisect(l, 4, owner));
     rank_threads_run(4, stop_rank, &all);
     for (int k = 0; k < 4; k++) {
@@ -673,14 +395,12 @@ TEST(too_many_impacts_end_the_run_of_all)
                         .restitution = 0.9,
                         .friction = 0.3};
         open_scene(&s, &k, DEM_METHOD_FEHLBERG45, 0.0);
-        s.options.max_impacts = 1;
-        s.options.window = 0.0;
+        s.run.options.max_impacts = 1;
+        s.run.options.window = 0.0;
         assert_same_end(&s, 0, DEM_ERROR_CONTACT);
         close_scene(&s);
     }
 }
-
-/* ---- the same bits ---- */
 
 TEST(impacts_on_a_plane_have_the_bits_of_one_process)
 {
