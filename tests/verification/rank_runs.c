@@ -489,8 +489,9 @@ const char *rank_runs_difference(const rank_runs_outcome *one, const rank_runs_o
     return difference_of_notes(one, whole, from);
 }
 
-void rank_runs_assert_shared(const rank_runs_scene *scene, int n_ranks, const domain_model_shares *shares,
-                             const rank_runs_outcome *from, const rank_runs_outcome *whole)
+rank_threads_counts rank_runs_assert_shared(const rank_runs_scene *scene, int n_ranks,
+                                            const domain_model_shares *shares, const rank_runs_outcome *from,
+                                            const rank_runs_outcome *whole)
 {
     rank_runs_outcome all[RANK_RUNS_MOST];
     rank_runs_make_outcomes(scene, n_ranks, all);
@@ -499,7 +500,9 @@ void rank_runs_assert_shared(const rank_runs_scene *scene, int n_ranks, const do
         const char *what = rank_runs_difference(&all[k], whole, from);
         if (what != NULL) fail_msg("rank %d of %d has another %s: '%s'", k, n_ranks, what, all[k].message);
     }
+    const rank_threads_counts calls = all[0].calls;
     rank_runs_free_outcomes(all, n_ranks);
+    return calls;
 }
 
 void rank_runs_assert_led(const rank_runs_scene *scene, int n_ranks, const rank_runs_outcome *from,

@@ -113,9 +113,10 @@ void rank_runs_led(const rank_runs_scene *scene, int n_ranks, const rank_runs_ou
 const char *rank_runs_difference(const rank_runs_outcome *one, const rank_runs_outcome *whole,
                                  const rank_runs_outcome *from);
 
-/** Ranks that share the scene see what a process alone has seen. */
-void rank_runs_assert_shared(const rank_runs_scene *scene, int n_ranks, const domain_model_shares *shares,
-                             const rank_runs_outcome *from, const rank_runs_outcome *whole);
+/** Ranks that share the scene see what a process alone has seen.  \return the calls that each has made */
+rank_threads_counts rank_runs_assert_shared(const rank_runs_scene *scene, int n_ranks,
+                                            const domain_model_shares *shares, const rank_runs_outcome *from,
+                                            const rank_runs_outcome *whole);
 
 /** And so does a leader. */
 void rank_runs_assert_led(const rank_runs_scene *scene, int n_ranks, const rank_runs_outcome *from,

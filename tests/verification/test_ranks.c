@@ -6,18 +6,16 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "rank_runs.h"
 #include "scattered.h"
 #include "support.h"
 
-#include "base/checkpoint_entries.h"
 #include "domain/partition.h"
-#include "harness/rank_threads.h"
-#include "model/domain_model.h"
 #include "simulation/led_run.h"
 #include "simulation/private.h"
 #include "simulation/right_hand_side.h"
 
-enum { MOST_RANKS = 7, N_BODIES = 4, STRIP = N_BODIES, N_METHODS = 4, N_STOPS = 2, STEP_RINGS = 3, TEXT = 256 };
+enum { N_BODIES = 4, STRIP = N_BODIES, N_METHODS = 4, SEEN_STEP = 4, STEP_RINGS = 3 };
 
 static const double spacing = 5e-3;
 static const dem_method methods[N_METHODS] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_DOPRI45, DEM_METHOD_RK4,
@@ -26,8 +24,7 @@ static const dem_method methods[N_METHODS] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_
 /* ---- bodies ---- */
 
 typedef struct scene {
-    dem_model *model;
-    dem_options options;
+    rank_runs_scene run;
     dem_boundary boundaries[3];
     dem_index *held, *pushed; /* nodes */
 } scene;
@@ -90,7 +87,7 @@ static dem_index *list_where(const dem_lattice *l, int coordinate, double sign, 
 /* The driven body, 2, is held on its left and pulled down there, and pushed on top; nodes feel two forces. */
 static void drive(scene *s)
 {
-    const dem_lattice *l = dem_model_lattice(s->model);
+    const dem_lattice *l = dem_model_lattice(s->run.model);
     dem_index n_held, n_pushed;
     s->held = list_where(l, 0, -1.0, &n_held);
     s->pushed = list_where(l, 1, 1.0, &n_pushed);
@@ -102,275 +99,37 @@ static void drive(scene *s)
     s->boundaries[2] = s->boundaries[1];
     s->boundaries[2].value[0] = -700.0;
     s->boundaries[2].ramp = 0.0;
-    s->options.boundaries = s->boundaries;
-    s->options.n_boundaries = 3;
+    s->run.options.boundaries = s->boundaries;
+    s->run.options.n_boundaries = 3;
 }
 
 static void open_scene(scene *s, int body, dem_method method)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = make_lattice(body);
-    *s = (scene){.model = support_model(&l, NULL, 0), .options = dem_options_default()};
-    s->options.method = method;
-    s->options.checkpoint_steps = 0;
-    if (body == 0) s->options.rtol = 1e-9;
-    if (body == 1) s->options.mass_damping = 300.0;
+    *s = (scene){
+        .run = {
+            .model = support_model(&l, NULL, 0), .options = dem_options_default(), .t_end = 3e-4, .step = SEEN_STEP}};
+    s->run.options.method = method;
+    s->run.options.checkpoint_steps = 0;
+    if (body == 0) s->run.options.rtol = 1e-9;
+    if (body == 1) s->run.options.mass_damping = 300.0;
     if (body == 2) drive(s);
 }
 
 static void close_scene(scene *s)
 {
-    dem_model_destroy(s->model);
+    dem_model_destroy(s->run.model);
     free(s->held);
     free(s->pushed);
 }
 
-/* ---- measures ---- */
-
-enum { MEASURED_STEP = 4, N_LOOKS = N_STOPS + 1 };
-
-/* Of one state. */
-typedef struct measures {
-    dem_energy energy;
-    dem_strain strain;
-    dem_body_motion bodies[2];
-    dem_boundary_load loads[3];
-    dem_surfaces surfaces;
-    double residual, stress_at[3], force_at;
-    double *stress;           /* [n_nodes][3] of the whole, as the next two are */
-    double *strains, *forces; /* [n_springs] */
-} measures;
-
-/* Of each rank's arrays the rows of its own nodes, and of springs whose lower node is an own one. */
-static dem_status measure_arrays(const dem_simulation *s, const domain *d, measures *m)
-{
-    const dem_lattice *l = &dem_simulation_model(s)->lattice;
-    CLEANUP(free_memory) double *stress = malloc(3 * (size_t)l->n_nodes * sizeof *stress);
-    CLEANUP(free_memory) double *strains = malloc((size_t)l->n_springs * sizeof *strains);
-    CLEANUP(free_memory) double *tensions = malloc((size_t)l->n_springs * sizeof *tensions);
-    if (dem_simulation_stress(s, stress) != DEM_OK || dem_simulation_strains(s, strains) != DEM_OK ||
-        dem_simulation_forces(s, tensions) != DEM_OK)
-        return DEM_ERROR_ARGUMENT;
-    for (dem_index i = 0; i < l->n_nodes; i++)
-        if (d == NULL || d->is_own[i]) memcpy(m->stress + 3 * domain_number(d, i), stress + 3 * i, 3 * sizeof *stress);
-    for (dem_index k = 0; k < l->n_springs; k++) {
-        const dem_index *ends = &l->ends[2 * k], lower = ends[0] < ends[1] ? ends[0] : ends[1];
-        if (d != NULL && !d->is_own[lower]) continue;
-        m->strains[d != NULL ? d->spring[k] : k] = strains[k];
-        m->forces[d != NULL ? d->spring[k] : k] = tensions[k];
-    }
-    return DEM_OK;
-}
-
-static dem_status measure(const dem_simulation *s, const dem_options *options, measures *m)
-{
-    const domain *d = dem_simulation_model(s)->domain;
-    dem_status status = DEM_OK;
-    m->energy.struct_size = sizeof m->energy;
-    m->strain.struct_size = sizeof m->strain;
-    m->surfaces.struct_size = sizeof m->surfaces;
-    m->residual = dem_simulation_residual(s);
-    if (dem_simulation_strain(s, &m->strain) != DEM_OK || dem_simulation_energy(s, &m->energy) != DEM_OK ||
-        dem_simulation_surfaces(s, &m->surfaces) != DEM_OK || dem_simulation_stress_at(s, 77, m->stress_at) != DEM_OK ||
-        dem_simulation_force_at(s, 123, &m->force_at) != DEM_OK)
-        return DEM_ERROR_ARGUMENT;
-    for (dem_index b = 0; b < dem_simulation_model(s)->n_bodies && status == DEM_OK; b++) {
-        m->bodies[b].struct_size = sizeof m->bodies[b];
-        status = dem_simulation_body(s, b, &m->bodies[b]);
-    }
-    for (dem_index k = 0; k < options->n_boundaries && status == DEM_OK; k++) {
-        m->loads[k].struct_size = sizeof m->loads[k];
-        status = dem_simulation_boundary(s, k, &m->loads[k]);
-    }
-    return status == DEM_OK ? measure_arrays(s, d, m) : status;
-}
-
-static void make_measures(measures *m, const dem_lattice *l)
-{
-    m->stress = calloc(3 * (size_t)l->n_nodes, sizeof *m->stress);
-    m->strains = calloc((size_t)l->n_springs, sizeof *m->strains);
-    m->forces = calloc((size_t)l->n_springs, sizeof *m->forces);
-}
-
-static void free_measures(measures *m)
-{
-    free(m->stress);
-    free(m->strains);
-    free(m->forces);
-}
-
-static void assert_same_measures(const measures *one, const measures *whole, const dem_lattice *l)
-{
-    assert_memory_equal(&one->energy, &whole->energy, sizeof one->energy);
-    assert_memory_equal(&one->strain, &whole->strain, sizeof one->strain);
-    assert_memory_equal(one->bodies, whole->bodies, sizeof one->bodies);
-    assert_memory_equal(one->loads, whole->loads, sizeof one->loads);
-    assert_memory_equal(&one->surfaces, &whole->surfaces, sizeof one->surfaces);
-    assert_memory_equal(&one->residual, &whole->residual, sizeof one->residual);
-    assert_memory_equal(one->stress_at, whole->stress_at, sizeof one->stress_at);
-    assert_memory_equal(&one->force_at, &whole->force_at, sizeof one->force_at);
-    assert_memory_equal(one->stress, whole->stress, 3 * (size_t)l->n_nodes * sizeof *one->stress);
-    assert_memory_equal(one->strains, whole->strains, (size_t)l->n_springs * sizeof *one->strains);
-    assert_memory_equal(one->forces, whole->forces, (size_t)l->n_springs * sizeof *one->forces);
-}
-
 /* ---- runs ---- */
-
-/* At each stop, and what is measured there and at the end of a step. */
-typedef struct outcome {
-    double t[N_STOPS], step[N_STOPS];
-    double taken[N_STOPS], given[N_STOPS]; /* J, by damping and from outside */
-    dem_counts counts[N_STOPS];
-    double *x[N_STOPS], *v[N_STOPS]; /* [n_nodes][2] of the whole */
-    measures measured[N_LOOKS];
-    int n_steps;
-    const dem_options *options;
-    dem_checkpoint *kept; /* the one taken third; NULL: elsewhere than on rank 0 */
-    int n_checkpoints;
-    char failure[TEXT]; /* empty: none */
-} outcome;
-
-static void make_outcome(outcome *o, const dem_lattice *l)
-{
-    const dem_index n = l->n_nodes;
-    memset(o, 0, sizeof *o);
-    for (int k = 0; k < N_LOOKS; k++) make_measures(&o->measured[k], l);
-    for (int k = 0; k < N_STOPS; k++) {
-        o->x[k] = calloc(2 * (size_t)n, sizeof(double));
-        o->v[k] = calloc(2 * (size_t)n, sizeof(double));
-    }
-}
-
-static void free_outcome(outcome *o)
-{
-    dem_checkpoint_destroy(o->kept);
-    for (int k = 0; k < N_LOOKS; k++) free_measures(&o->measured[k]);
-    for (int k = 0; k < N_STOPS; k++) {
-        free(o->x[k]);
-        free(o->v[k]);
-    }
-}
-
-/* Ranks write the rows of their own nodes. */
-static dem_status look(const dem_simulation *s, const domain *d, outcome *o, int stop)
-{
-    dem_state state = {.struct_size = sizeof state};
-    o->counts[stop].struct_size = sizeof o->counts[stop];
-    if (dem_simulation_state(s, &state) != DEM_OK || dem_simulation_counts(s, &o->counts[stop]) != DEM_OK)
-        return DEM_ERROR_ARGUMENT;
-    o->t[stop] = state.t;
-    o->step[stop] = state.step;
-    o->taken[stop] = state_total_of(&s->layout, s->seen, STATE_DAMPING);
-    o->given[stop] = state_total_of(&s->layout, s->seen, STATE_WORK);
-    const dem_index n = dem_simulation_model(s)->lattice.n_nodes;
-    for (dem_index i = 0; i < n; i++) {
-        if (d != NULL && !d->is_own[i]) continue;
-        memcpy(o->x[stop] + 2 * domain_number(d, i), state.x + 2 * i, 2 * sizeof *state.x);
-        memcpy(o->v[stop] + 2 * domain_number(d, i), state.v + 2 * i, 2 * sizeof *state.v);
-    }
-    return measure(s, o->options, &o->measured[stop]);
-}
-
-static dem_status measure_step(void *context, const dem_simulation *s)
-{
-    outcome *o = context;
-    return ++o->n_steps == MEASURED_STEP ? measure(s, o->options, &o->measured[N_STOPS]) : DEM_OK;
-}
-
-static dem_status keep_checkpoint(void *context, const dem_simulation *s, dem_checkpoint *checkpoint)
-{
-    outcome *o = context;
-    if (++o->n_checkpoints != 3 || dem_simulation_model(s)->ranks->rank > 0) return DEM_OK;
-    assert_ok(dem_checkpoint_create(&o->kept));
-    return checkpoint_entries_copy(o->kept, checkpoint);
-}
-
-/* \param from   a checkpoint, of rank 0; NULL: the run begins
-   \param leads  ranks that make the run of rank 0, which has the whole; NULL: it makes its own */
-static dem_status run_led(const dem_model *model, const dem_options *options, const dem_checkpoint *from,
-                          const ranks *leads, outcome *o)
-{
-    dem_simulation *s = NULL;
-    const dem_observer observer =
-        SIZED(dem_observer, .context = o, .step = measure_step, .checkpoint = keep_checkpoint);
-    dem_status status = DEM_OK;
-    if (from == NULL)
-        status = dem_simulation_create(&s, model, options);
-    else
-        status = dem_simulation_resume(&s, model, options, model->ranks->rank == 0 ? from : NULL);
-    o->options = options;
-    if (status == DEM_OK && leads != NULL) status = dem_private_lead(s, leads, options, from);
-    if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
-    for (int k = 0; k < N_STOPS && status == DEM_OK; k++) {
-        status = dem_simulation_advance(s, 1.5e-4 * (k + 1));
-        if (status == DEM_OK) status = look(s, model->domain, o, k);
-    }
-    dem_simulation_destroy(s);
-    return status;
-}
-
-static dem_status run(const dem_model *model, const dem_options *options, const dem_checkpoint *from, outcome *o)
-{
-    return run_led(model, options, from, NULL, o);
-}
-
-/* Of all ranks. */
-typedef struct shared_run {
-    const scene *scene;
-    const int32_t *owner;
-    int n_rings; /* of ghosts */
-    const dem_checkpoint *from;
-    outcome *outcomes;         /* [ranks] whose x and v are one */
-    rank_threads_counts calls; /* of one rank */
-} shared_run;
-
-static void run_rank(const ranks *r, void *context)
-{
-    shared_run *c = context;
-    dem_model *model = NULL;
-    outcome *o = &c->outcomes[r->rank];
-    dem_status status = domain_model_create(&model, r, c->scene->model,
-                                            &(domain_model_shares){.owner = c->owner, .n_rings = c->n_rings});
-    if (status == DEM_OK) status = run(model, &c->scene->options, c->from, o);
-    if (status != DEM_OK) (void)snprintf(o->failure, TEXT, "%s", dem_status_message());
-    dem_model_destroy(model);
-    if (r->rank == 0) c->calls = rank_threads_count(r);
-}
-
-static void assert_same_outcome(const outcome *one, const outcome *whole, const dem_lattice *l, bool is_resumed)
-{
-    const dem_index n = l->n_nodes;
-    for (int k = 0; k < (is_resumed ? N_STOPS : N_LOOKS); k++)
-        assert_same_measures(&one->measured[k], &whole->measured[k], l);
-    for (int k = 0; k < N_STOPS; k++) {
-        assert_true(one->t[k] == whole->t[k]);
-        assert_true(one->step[k] == whole->step[k]);
-        assert_true(one->taken[k] == whole->taken[k]);
-        assert_true(one->given[k] == whole->given[k]);
-        assert_memory_equal(&one->counts[k], &whole->counts[k], sizeof one->counts[k]);
-        assert_memory_equal(one->x[k], whole->x[k], 2 * (size_t)n * sizeof(double));
-        assert_memory_equal(one->v[k], whole->v[k], 2 * (size_t)n * sizeof(double));
-    }
-}
-
-/* All entries of two checkpoints. */
-static void assert_same_checkpoint(const dem_checkpoint *one, const dem_checkpoint *other)
-{
-    static const char *const names[] = {"sizes",    "motions", "numbers",  "counts",
-                                        "impulses", "overlap", "contacts", "state"};
-    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
-        size_t size, expected;
-        const void *bytes = dem_checkpoint_find(one, names[k], &size);
-        const void *wanted = dem_checkpoint_find(other, names[k], &expected);
-        assert_true(bytes != NULL && wanted != NULL && size == expected);
-        assert_memory_equal(bytes, wanted, size);
-    }
-}
 
 /* Whether ranks integrate rings of ghosts through a step, so that one exchange does for it. */
 static bool is_once_a_step(const scene *s, int n_rings)
 {
-    return n_rings == STEP_RINGS && s->options.method == DEM_METHOD_FEHLBERG45 && s->options.n_boundaries == 0 &&
-           dem_model_lattice(s->model)->viscosity == NULL;
+    return n_rings == STEP_RINGS && s->run.options.method == DEM_METHOD_FEHLBERG45 &&
+           s->run.options.n_boundaries == 0 && dem_model_lattice(s->run.model)->viscosity == NULL;
 }
 
 /* One exchange for each evaluation, or for each attempt and the first state; a team of one steps as a process alone
@@ -383,31 +142,23 @@ static dem_index exchanges_of(const dem_options *options, bool once_a_step, int 
     return n_ranks > 1 ? counts->evaluations + ahead + (options->method == DEM_METHOD_RK4) : 0;
 }
 
-/* Who measures needs an exchange. */
-static void share_rings(const scene *s, int n_rings, int n_ranks, const int32_t *owner, const dem_checkpoint *from,
-                        const outcome *whole)
+/* Who looks needs an exchange. */
+static void share_rings(const scene *s, int n_rings, int n_ranks, const int32_t *owner, const rank_runs_outcome *from,
+                        const rank_runs_outcome *whole)
 {
-    const dem_lattice *l = dem_model_lattice(s->model);
-    outcome all[MOST_RANKS];
-    make_outcome(&all[0], l);
-    for (int k = 1; k < n_ranks; k++) all[k] = all[0];
-    shared_run c = {.scene = s, .owner = owner, .n_rings = n_rings, .from = from, .outcomes = all};
-    rank_threads_run(n_ranks, run_rank, &c);
-    for (int k = 0; k < n_ranks; k++) {
-        assert_string_equal(all[k].failure, "");
-        assert_same_outcome(&all[k], whole, l, from != NULL);
-    }
-    if (whole->kept != NULL && from == NULL) assert_same_checkpoint(all[0].kept, whole->kept);
-    if (s->options.checkpoint_steps == 0)
-        assert_int_equal(c.calls.exchanges, N_LOOKS + exchanges_of(&s->options, is_once_a_step(s, n_rings), n_ranks,
-                                                                   &whole->counts[N_STOPS - 1]));
-    free_outcome(&all[0]);
+    const dem_counts *counts = &whole->views[RANK_RUNS_STOPS - 1].counts;
+    const rank_threads_counts calls = rank_runs_assert_shared(
+        &s->run, n_ranks, &(domain_model_shares){.owner = owner, .n_rings = n_rings}, from, whole);
+    if (s->run.options.checkpoint_steps == 0)
+        assert_int_equal(calls.exchanges,
+                         RANK_RUNS_LOOKS + exchanges_of(&s->run.options, is_once_a_step(s, n_rings), n_ranks, counts));
 }
 
-static void share(const scene *s, int n_ranks, const int32_t *owner, const dem_checkpoint *from, const outcome *whole)
+static void share(const scene *s, int n_ranks, const int32_t *owner, const rank_runs_outcome *from,
+                  const rank_runs_outcome *whole)
 {
     share_rings(s, 1, n_ranks, owner, from, whole);
-    if (n_ranks > 1 && s->options.method == DEM_METHOD_FEHLBERG45)
+    if (n_ranks > 1 && s->run.options.method == DEM_METHOD_FEHLBERG45)
         share_rings(s, STEP_RINGS, n_ranks, owner, from, whole);
 }
 
@@ -415,21 +166,21 @@ static void share(const scene *s, int n_ranks, const int32_t *owner, const dem_c
 static void check_numbers(int body, dem_method method, const int *numbers, size_t n_numbers)
 {
     scene s;
-    outcome whole;
     open_scene(&s, body, method);
-    const dem_lattice *l = dem_model_lattice(s.model);
+    const dem_lattice *l = dem_model_lattice(s.run.model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
-    make_outcome(&whole, l);
-    assert_ok(run(s.model, &s.options, NULL, &whole));
-    assert_true((whole.taken[0] != 0.0) == (body == 1) && (whole.given[0] != 0.0) == (body == 2));
-    if (body == 0 && method == DEM_METHOD_FEHLBERG45) assert_true(whole.counts[N_STOPS - 1].rejected > 0);
+    rank_runs_outcome whole = rank_runs_alone(&s.run);
+    const rank_runs_view *end = &whole.views[RANK_RUNS_STOPS - 1];
+    assert_string_equal(whole.message, "");
+    assert_true((end->totals[STATE_DAMPING] != 0.0) == (body == 1) && (end->totals[STATE_WORK] != 0.0) == (body == 2));
+    if (body == 0 && method == DEM_METHOD_FEHLBERG45) assert_true(end->counts.rejected > 0);
     for (size_t k = 0; k < n_numbers; k++) {
         assert_ok(partition_bisect(l, numbers[k], owner));
         share(&s, numbers[k], owner, NULL, &whole);
         scatter(l, 4.1 * spacing, numbers[k], owner);
         share(&s, numbers[k], owner, NULL, &whole);
     }
-    free_outcome(&whole);
+    rank_runs_free_outcome(&whole);
     close_scene(&s);
 }
 
@@ -446,66 +197,37 @@ static void check_checkpoints(int body, dem_method method)
 {
     static const int numbers[] = {1, 2, 3, 7};
     scene s;
-    outcome whole;
     open_scene(&s, body, method);
-    const dem_lattice *l = dem_model_lattice(s.model);
+    const dem_lattice *l = dem_model_lattice(s.run.model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
-    s.options.checkpoint_steps = 4;
-    make_outcome(&whole, l);
-    assert_ok(run(s.model, &s.options, NULL, &whole));
+    s.run.options.checkpoint_steps = 4;
+    rank_runs_outcome whole = rank_runs_alone(&s.run);
     assert_non_null(whole.kept);
     scatter(l, 4.1 * spacing, 3, owner);
     share(&s, 3, owner, NULL, &whole);
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
         assert_ok(partition_bisect(l, numbers[k], owner));
-        share(&s, numbers[k], owner, whole.kept, &whole);
+        share(&s, numbers[k], owner, &whole, &whole);
     }
-    free_outcome(&whole);
+    rank_runs_free_outcome(&whole);
     close_scene(&s);
 }
 
 /* ---- a run that rank 0 leads ---- */
 
-static void lead_as_rank(const ranks *r, void *context)
-{
-    const shared_run *c = context;
-    outcome *o = &c->outcomes[0];
-    if (r->rank > 0) {
-        assert_int_equal(dem_private_follow(r), 75);
-        return;
-    }
-    if (run_led(c->scene->model, &c->scene->options, c->from, r, o) != DEM_OK)
-        (void)snprintf(o->failure, TEXT, "%s", dem_status_message());
-    dem_private_dismiss(r, 75);
-}
-
-static void lead(const scene *s, int n_ranks, const dem_checkpoint *from, const outcome *whole)
-{
-    const dem_lattice *l = dem_model_lattice(s->model);
-    outcome led;
-    make_outcome(&led, l);
-    shared_run c = {.scene = s, .from = from, .outcomes = &led};
-    rank_threads_run(n_ranks, lead_as_rank, &c);
-    assert_string_equal(led.failure, "");
-    assert_same_outcome(&led, whole, l, from != NULL);
-    if (from == NULL) assert_same_checkpoint(led.kept, whole->kept);
-    free_outcome(&led);
-}
-
 static void check_led(int body, dem_method method)
 {
     static const int numbers[] = {1, 2, 5};
     scene s;
-    outcome whole;
     open_scene(&s, body, method);
-    s.options.checkpoint_steps = 4;
-    make_outcome(&whole, dem_model_lattice(s.model));
-    assert_ok(run(s.model, &s.options, NULL, &whole));
+    s.run.options.checkpoint_steps = 4;
+    rank_runs_outcome whole = rank_runs_alone(&s.run);
+    assert_non_null(whole.kept);
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
-        lead(&s, numbers[k], NULL, &whole);
-        lead(&s, numbers[k], whole.kept, &whole);
+        rank_runs_assert_led(&s.run, numbers[k], NULL, &whole);
+        rank_runs_assert_led(&s.run, numbers[k], &whole, &whole);
     }
-    free_outcome(&whole);
+    rank_runs_free_outcome(&whole);
     close_scene(&s);
 }
 
@@ -544,14 +266,14 @@ static dem_status watch(watched *w, const ranks *r)
     dem_simulation *s = NULL;
     dem_state state = {.struct_size = sizeof state};
     const dem_observer observer = SIZED(dem_observer, .context = w, .step = ask_step);
-    dem_status status = dem_simulation_create(&s, w->scene->model, &w->scene->options);
-    if (status == DEM_OK) status = dem_private_lead(s, r, &w->scene->options, NULL);
+    dem_status status = dem_simulation_create(&s, w->scene->run.model, &w->scene->run.options);
+    if (status == DEM_OK) status = dem_private_lead(s, r, &w->scene->run.options, NULL);
     if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
     if (status == DEM_OK) status = dem_simulation_advance(s, 1e-4);
     w->exchanges = rank_threads_count(r).exchanges;
     w->v[0] = dem_simulation_fastest(s);
     if (status == DEM_OK) status = dem_simulation_state(s, &state);
-    for (dem_index i = 0; status == DEM_OK && i < dem_model_lattice(w->scene->model)->n_nodes; i++)
+    for (dem_index i = 0; status == DEM_OK && i < dem_model_lattice(w->scene->run.model)->n_nodes; i++)
         w->v[1] = fmax(w->v[1], fabs(state.v[2 * i]) + fabs(state.v[2 * i + 1]));
     dem_simulation_destroy(s);
     return status;
@@ -593,7 +315,7 @@ typedef struct talk {
     rank_threads_counts calls[MOST_STEPS];
     int n_steps;
     dem_counts counts;
-    char failure[TEXT]; /* empty: none */
+    char failure[RANK_RUNS_TEXT]; /* empty: none */
 } talk;
 
 static dem_status note_calls(void *context, const dem_simulation *s)
@@ -609,7 +331,7 @@ static dem_status talk_through(talk *t, const dem_model *model)
     dem_simulation *s = NULL;
     const dem_observer observer = SIZED(dem_observer, .context = t, .step = note_calls);
     t->counts.struct_size = sizeof t->counts;
-    dem_status status = dem_simulation_create(&s, model, &t->scene->options);
+    dem_status status = dem_simulation_create(&s, model, &t->scene->run.options);
     if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
     if (status == DEM_OK) status = dem_simulation_advance(s, t->end);
     if (status == DEM_OK) status = dem_simulation_counts(s, &t->counts);
@@ -623,10 +345,10 @@ static void talk_as_rank(const ranks *r, void *context)
     talk *t = context, own = *t;
     own.ranks = r;
     dem_model *model = NULL;
-    dem_status status = domain_model_create(&model, r, own.scene->model,
+    dem_status status = domain_model_create(&model, r, own.scene->run.model,
                                             &(domain_model_shares){.owner = own.owner, .n_rings = own.n_rings});
     if (status == DEM_OK) status = talk_through(&own, model);
-    if (status != DEM_OK) (void)snprintf(own.failure, TEXT, "%s", dem_status_message());
+    if (status != DEM_OK) (void)snprintf(own.failure, RANK_RUNS_TEXT, "%s", dem_status_message());
     dem_model_destroy(model);
     if (r->rank == 0) *t = own;
 }
@@ -634,7 +356,7 @@ static void talk_as_rank(const ranks *r, void *context)
 /* On three ranks. */
 static void listen(talk *t, const scene *s, int n_rings, double end)
 {
-    const dem_lattice *l = dem_model_lattice(s->model);
+    const dem_lattice *l = dem_model_lattice(s->run.model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     assert_ok(partition_bisect(l, 3, owner));
     *t = (talk){.scene = s, .owner = owner, .n_rings = n_rings, .end = end};
@@ -716,8 +438,8 @@ static void find_way(const ranks *r, void *context)
     way other = *(way *)context, *w = r->rank == 0 ? context : &other;
     dem_model *model = NULL;
     dem_simulation *s = NULL;
-    w->status = domain_model_create(&model, r, w->scene->model, &(domain_model_shares){.owner = w->owner});
-    if (w->status == DEM_OK) w->status = dem_simulation_create(&s, model, &w->scene->options);
+    w->status = domain_model_create(&model, r, w->scene->run.model, &(domain_model_shares){.owner = w->owner});
+    if (w->status == DEM_OK) w->status = dem_simulation_create(&s, model, &w->scene->run.options);
     if (w->status == DEM_OK) {
         const ode_problem p = right_hand_side_problem(s);
         w->is_shared = p.domain != NULL;
@@ -734,7 +456,7 @@ TEST(a_team_of_one_steps_as_a_process_alone_and_any_ranks_take_fused_steps)
 {
     scene s;
     open_scene(&s, 3, DEM_METHOD_VERLET);
-    const dem_lattice *l = dem_model_lattice(s.model);
+    const dem_lattice *l = dem_model_lattice(s.run.model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     for (int n = 1; n <= 3; n += 2) {
         way w = {.scene = &s, .owner = owner};
@@ -755,10 +477,10 @@ typedef struct refusal {
     const scene *scene;
     const int32_t *owner;
     const dem_checkpoint *from; /* NULL: the run begins */
-    dem_status status[MOST_RANKS];
-    char messages[MOST_RANKS][TEXT];
+    dem_status status[RANK_RUNS_MOST];
+    char messages[RANK_RUNS_MOST][RANK_RUNS_TEXT];
     int stops; /* the rank whose observer stops the run; -1: none */
-    dem_index n_steps[MOST_RANKS];
+    dem_index n_steps[RANK_RUNS_MOST];
 } refusal;
 
 typedef struct watcher {
@@ -778,7 +500,7 @@ static dem_status try_run(const dem_model *model, refusal *c, int rank)
     dem_simulation *s = NULL;
     watcher w = {c->stops == rank, &c->n_steps[rank]};
     const dem_observer observer = SIZED(dem_observer, .context = &w, .step = count_step);
-    const dem_options *o = &c->scene->options;
+    const dem_options *o = &c->scene->run.options;
     dem_status status = c->from != NULL ? dem_simulation_resume(&s, model, o, rank == 0 ? c->from : NULL)
                                         : dem_simulation_create(&s, model, o);
     if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
@@ -791,17 +513,17 @@ static void try_rank(const ranks *r, void *context)
 {
     refusal *c = context;
     dem_model *model = NULL;
-    dem_status status = domain_model_create(&model, r, c->scene->model, &(domain_model_shares){.owner = c->owner});
+    dem_status status = domain_model_create(&model, r, c->scene->run.model, &(domain_model_shares){.owner = c->owner});
     if (status == DEM_OK) status = try_run(model, c, r->rank);
     c->status[r->rank] = status;
-    (void)snprintf(c->messages[r->rank], TEXT, "%s", status != DEM_OK ? dem_status_message() : "");
+    (void)snprintf(c->messages[r->rank], RANK_RUNS_TEXT, "%s", status != DEM_OK ? dem_status_message() : "");
     dem_model_destroy(model);
 }
 
 /* On four ranks. */
 static refusal refuse(const scene *s, int stops, const dem_checkpoint *from)
 {
-    const dem_lattice *l = dem_model_lattice(s->model);
+    const dem_lattice *l = dem_model_lattice(s->run.model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     assert_ok(partition_bisect(l, 4, owner));
     refusal c = {.scene = s, .owner = owner, .stops = stops, .from = from};
@@ -813,13 +535,13 @@ static refusal refuse(const scene *s, int stops, const dem_checkpoint *from)
 /* Every rank gives up as one process does, after as many steps. */
 static void check_failure(const dem_lattice *l, dem_method method)
 {
-    scene s = {.model = support_model(l, NULL, 0), .options = dem_options_default()};
-    s.options.method = method;
-    s.options.checkpoint_steps = 0;
+    scene s = {.run = {.model = support_model(l, NULL, 0), .options = dem_options_default()}};
+    s.run.options.method = method;
+    s.run.options.checkpoint_steps = 0;
     refusal whole = {.scene = &s, .stops = -1};
-    const dem_status expected = try_run(s.model, &whole, 0);
-    char message[TEXT];
-    (void)snprintf(message, TEXT, "%s", dem_status_message());
+    const dem_status expected = try_run(s.run.model, &whole, 0);
+    char message[RANK_RUNS_TEXT];
+    (void)snprintf(message, RANK_RUNS_TEXT, "%s", dem_status_message());
     assert_int_equal(expected, DEM_ERROR_INTEGRATOR);
     const refusal c = refuse(&s, -1, NULL);
     for (int k = 0; k < 4; k++) {
@@ -856,8 +578,8 @@ TEST(what_one_rank_refuses_is_refused_by_all)
     scene s;
     open_scene(&s, 0, DEM_METHOD_VERLET);
     s.boundaries[0] = (dem_boundary)SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 3, .nodes = twice);
-    s.options.boundaries = s.boundaries;
-    s.options.n_boundaries = 1;
+    s.run.options.boundaries = s.boundaries;
+    s.run.options.n_boundaries = 1;
     const refusal c = refuse(&s, -1, NULL);
     for (int k = 0; k < 4; k++) {
         assert_int_equal(c.status[k], DEM_ERROR_ARGUMENT);
@@ -870,11 +592,9 @@ TEST(what_one_rank_refuses_is_refused_by_all)
 TEST(a_checkpoint_of_another_model_is_refused_by_all)
 {
     scene s, other;
-    outcome whole;
     open_scene(&other, 1, DEM_METHOD_VERLET);
-    other.options.checkpoint_steps = 4;
-    make_outcome(&whole, dem_model_lattice(other.model));
-    assert_ok(run(other.model, &other.options, NULL, &whole));
+    other.run.options.checkpoint_steps = 4;
+    rank_runs_outcome whole = rank_runs_alone(&other.run);
     open_scene(&s, 0, DEM_METHOD_VERLET);
     const refusal c = refuse(&s, -1, whole.kept);
     for (int k = 0; k < 4; k++) {
@@ -882,7 +602,7 @@ TEST(a_checkpoint_of_another_model_is_refused_by_all)
         assert_string_equal(c.messages[k], c.messages[0]);
         assert_non_null(strstr(c.messages[k], "the checkpoint has "));
     }
-    free_outcome(&whole);
+    rank_runs_free_outcome(&whole);
     close_scene(&other);
     close_scene(&s);
 }
@@ -926,7 +646,7 @@ TEST(a_long_strip_has_the_bits_of_one_process)
 {
     scene s;
     open_scene(&s, STRIP, DEM_METHOD_VERLET);
-    assert_non_null(s.model->layout.order);
+    assert_non_null(s.run.model->layout.order);
     close_scene(&s);
     check_numbers(STRIP, DEM_METHOD_VERLET, (const int[]){3}, 1);
 }
