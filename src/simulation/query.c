@@ -556,9 +556,9 @@ dem_status dem_simulation_boundary(const dem_simulation *s, dem_index k, dem_bou
     if (s->leads != NULL) return led_run_ask(s, RANK_CALL_BOUNDARY, k, out);
     TRY(status_check_number("boundary", k, s->boundaries.n));
     const boundary_condition *b = &s->boundaries.list[k];
-    const double *y = all_seen_of(s), *external = s->held_forces.force;
+    const double *y = all_seen_of(s), *external = s->held_forces.force; /* NULL: no node here is held */
     dem_boundary_load load = diagnostics_boundary(&s->forces, b, external, y, y + state_velocities(&s->layout));
-    const bool known = b->kind == DEM_BOUNDARY_FORCE || external == NULL || s->measures->has_held_forces;
+    const bool known = b->kind == DEM_BOUNDARY_FORCE || s->external == NULL || s->measures->has_held_forces;
     if (!known) load.force[0] = load.force[1] = (double)NAN;
     return GIVE(dem_boundary_load, out, &load);
 }
