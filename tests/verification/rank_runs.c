@@ -315,26 +315,34 @@ static dem_status begin(dem_simulation **s, const dem_model *model, const ranks 
     return status == DEM_OK ? dem_simulation_observe(*s, &observer) : status;
 }
 
-/* What a failed advance leaves is looked at, too. */
-static dem_status advance(dem_simulation *s, int from, rank_runs_outcome *o)
+static void note_failure(rank_runs_outcome *o, dem_status status)
 {
-    if (o->scene->prepare != NULL) o->scene->prepare(s);
-    for (int k = from; k < RANK_RUNS_STOPS; k++) {
-        const dem_status status = dem_simulation_advance(s, stop(o->scene, k));
-        if (status != DEM_OK) (void)snprintf(o->message, RANK_RUNS_TEXT, "%s", dem_status_message());
-        const dem_status seen = look(s, o, k);
-        if (status != DEM_OK || seen != DEM_OK) return status != DEM_OK ? status : seen;
+    if (status == DEM_OK || o->status != DEM_OK) return;
+    o->status = status;
+    (void)snprintf(o->message, RANK_RUNS_TEXT, "%s", dem_status_message());
+}
+
+/* What a failed advance leaves is looked at, too. */
+static dem_status advance_to(dem_simulation *s, int k, rank_runs_outcome *o)
+{
+    const double t = stop(o->scene, k);
+    dem_status status = dem_simulation_advance(s, t);
+    note_failure(o, status);
+    if (status != DEM_OK && o->scene->mends != NULL && o->scene->mends(o)) {
+        note_failure(o, look(s, o, RANK_RUNS_STOPS));
+        status = dem_simulation_advance(s, t);
     }
-    return DEM_OK;
+    const dem_status seen = look(s, o, k);
+    note_failure(o, seen);
+    return status == DEM_OK ? seen : status;
 }
 
 void rank_runs_go(const dem_model *model, const ranks *leads, const rank_runs_outcome *from, rank_runs_outcome *o)
 {
     dem_simulation *s = NULL;
-    o->status = begin(&s, model, leads, from, o);
-    if (o->status == DEM_OK) o->status = advance(s, first_stop(from), o);
-    if (o->status != DEM_OK && *o->message == '\0')
-        (void)snprintf(o->message, RANK_RUNS_TEXT, "%s", dem_status_message());
+    dem_status status = begin(&s, model, leads, from, o);
+    note_failure(o, status);
+    for (int k = first_stop(from); k < RANK_RUNS_STOPS && status == DEM_OK; k++) status = advance_to(s, k, o);
     dem_simulation_destroy(s);
 }
 
@@ -358,11 +366,8 @@ static void run_rank(const ranks *r, void *context)
     const shared_run *c = context;
     dem_model *model = NULL;
     rank_runs_outcome *o = &c->outcomes[r->rank];
-    o->status = domain_model_create(&model, r, c->scene->model, c->shares);
-    if (o->status == DEM_OK)
-        rank_runs_go(model, NULL, c->from, o);
-    else
-        (void)snprintf(o->message, RANK_RUNS_TEXT, "%s", dem_status_message());
+    note_failure(o, domain_model_create(&model, r, c->scene->model, c->shares));
+    if (o->status == DEM_OK) rank_runs_go(model, NULL, c->from, o);
     o->calls = rank_threads_count(r);
     dem_model_destroy(model);
 }
@@ -475,7 +480,7 @@ static const char *difference_at(const rank_runs_outcome *one, const rank_runs_o
 const char *rank_runs_difference(const rank_runs_outcome *one, const rank_runs_outcome *whole,
                                  const rank_runs_outcome *from)
 {
-    const int n_looks = whole->scene->step > 0 && from == NULL ? RANK_RUNS_LOOKS : RANK_RUNS_STOPS;
+    const int n_looks = from == NULL ? RANK_RUNS_LOOKS : RANK_RUNS_STOPS;
     if (one->status != whole->status || strcmp(one->message, whole->message) != 0) return "status or message";
     for (int k = first_stop(from); k < n_looks; k++) {
         const char *what = difference_at(one, whole, k);

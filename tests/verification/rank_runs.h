@@ -37,8 +37,9 @@ typedef struct rank_runs_scene {
     bool is_seen_at_events; /* likewise, but for rows; and at breaks */
     /** Whether a checkpoint is the one to keep; NULL: the third is. */
     bool (*keeps)(const dem_simulation *s, const rank_runs_outcome *so_far);
-    /** Is called before the first advance; NULL: nothing is. */
-    void (*prepare)(dem_simulation *s);
+    /** Is called after an advance that has failed, and says whether it is to be tried once more; NULL: it is not. Then
+     *  the state that has been left is looked at as that of a step is. */
+    bool (*mends)(const rank_runs_outcome *so_far);
 } rank_runs_scene;
 
 /** All that is seen at one time, but for nodes and elements; of lists the first and the last entry. */
@@ -67,7 +68,7 @@ typedef struct rank_runs_note {
 
 /** What one rank, or a process alone, sees of a run. */
 struct rank_runs_outcome {
-    rank_runs_view *views; /* [RANK_RUNS_LOOKS] at stops, and at the end of the step that is looked at */
+    rank_runs_view *views; /* [RANK_RUNS_LOOKS] at stops, and at a step */
     dem_index n[RANK_RUNS_KINDS];
     double *rows[RANK_RUNS_ROWS]; /* [RANK_RUNS_LOOKS][n of the whole][width]: ranks write what is their own */
     dem_index n_notes, n_breaks, capacity;
@@ -77,7 +78,7 @@ struct rank_runs_outcome {
     double kept_t;        /* s */
     dem_index kept_notes; /* so many had been taken then */
     rank_threads_counts calls;
-    dem_status status;
+    dem_status status;            /* of the first advance that has failed, with */
     char message[RANK_RUNS_TEXT]; /* empty: the run has come to its end */
     const rank_runs_scene *scene;
 };

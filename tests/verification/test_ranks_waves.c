@@ -8,12 +8,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "rank_runs.h"
 #include "scattered.h"
 #include "support.h"
 
 #include "domain/partition.h"
-#include "harness/rank_threads.h"
-#include "model/domain_model.h"
 #include "simulation/private.h"
 
 enum { MOST_RANKS = 3, MANY_RANKS = 7, STEP_RINGS = 3, TEXT = 256 };
@@ -96,16 +95,12 @@ static void free_outcome(outcome *o)
 /* Ranks write the rows of their own nodes. */
 static void look(const dem_simulation *s, outcome *o)
 {
-    const domain *d = s->model->domain;
     dem_state seen = {.struct_size = sizeof seen};
     if (dem_simulation_state(s, &seen) != DEM_OK || dem_simulation_counts(s, &o->counts) != DEM_OK) return;
     o->t = seen.t;
     o->step = seen.step;
-    for (dem_index i = 0; i < s->layout.n_nodes; i++) {
-        if (!domain_owns(d, i)) continue;
-        memcpy(o->x + 2 * domain_number(d, i), seen.x + 2 * i, 2 * sizeof(double));
-        memcpy(o->v + 2 * domain_number(d, i), seen.v + 2 * i, 2 * sizeof(double));
-    }
+    rank_runs_copy(s->model, 2, seen.x, o->x);
+    rank_runs_copy(s->model, 2, seen.v, o->v);
 }
 
 static void run(const dem_model *model, const scene *c, const dem_observer *watch, outcome *o)
