@@ -179,15 +179,18 @@ dem_status breaking_found(const dem_simulation *s)
     return run_may_break(s) ? fracture_source_found(&s->breaks) : DEM_OK;
 }
 
-/* New faces near others change the energy of contact: what it is less goes with that of the broken elements. */
+/* New faces near others change the energy of contact: what it is less goes with that of the broken elements. Ranks,
+ * which measure that together, all break the same: where one has no memory for it none goes on. Some may have made
+ * their outlines anew by then, which nobody asks for any more. */
 dem_status breaking_follow(dem_simulation *s, const double *y)
 {
     const fracture_source *b = &s->breaks;
+    const ranks *r = s->model->ranks;
     if (fracture_source_has_failed(b)) kernel_follow(&s->kernel, &s->elements, b->failed, b->n_failed);
     if (!fracture_source_has_broken(b)) return DEM_OK;
-    TRY(body_contact_follow(s, y));
+    TRY(reduce_status(r, body_contact_follow(s, y), 0.0));
     const double before = s->surfaces != NULL ? set_motion_energy(s, y) : 0.0;
-    TRY(renew_outline(s, &s->elements, y));
+    TRY(reduce_status(r, renew_outline(s, &s->elements, y), 0.0));
     if (s->surfaces != NULL) exact_sum_add(&s->fracture, before - set_motion_energy(s, y));
     return DEM_OK;
 }
@@ -203,7 +206,7 @@ dem_status breaking_end_step(dem_simulation *s)
 {
     if (!s->at_break) return breaking_follow(s, s->path.y1);
     show_break(s);
-    dem_status status = fracture_source_break(&s->breaks, s->frame);
+    dem_status status = reduce_status(s->model->ranks, fracture_source_break(&s->breaks, s->frame), 0.0);
     if (status == DEM_OK) status = breaking_follow(s, s->frame);
     if (status != DEM_OK) fracture_source_undo(&s->breaks);
     return status;
@@ -215,7 +218,7 @@ dem_status breaking_begin(dem_simulation *s)
 {
     TRY(breaking_follow(s, s->y)); /* a motion may have been set inside a step */
     if (!run_may_break(s)) return DEM_OK;
-    dem_status status = fracture_source_break_at_start(&s->breaks, s->t, s->y);
+    dem_status status = reduce_status(s->model->ranks, fracture_source_break_at_start(&s->breaks, s->t, s->y), 0.0);
     if (status == DEM_OK) status = breaking_follow(s, s->y);
     if (status != DEM_OK) fracture_source_undo(&s->breaks);
     if (fracture_source_has_broken(&s->breaks)) (void)pausing_begin(s, s->t, s->y);

@@ -431,7 +431,7 @@ static dem_status commit_step(dem_simulation *s)
     if (run_is_local(s)) TRY(stop_if_force_failed(s, event_queue_show(&s->queue, s->path.t1)));
     if (s->at_event) TRY(take_rollback(s));
     const bool breaks = may_have_broken(s);
-    if (breaks) TRY(reduce_status(s->model->ranks, breaking_end_step(s), 0.0));
+    if (breaks) TRY(breaking_end_step(s));
     /* From here on the end of the step is the state: y and t. */
     const bool broken = breaks && fracture_source_has_broken(&s->breaks);
     const bool failed = breaks && fracture_source_has_failed(&s->breaks);
@@ -452,7 +452,7 @@ static dem_status start(dem_simulation *s)
 {
     const event_listener listener = {report_event, s};
     TRY(likeness_check_force(s));
-    TRY(reduce_status(s->model->ranks, breaking_begin(s), 0.0));
+    TRY(breaking_begin(s));
     TRY(body_contact_settle(s, s->y));
     const dem_status given = report_breaks(s, &s->given, 0), own = report_own_breaks(s, 0);
     s->given.n = 0;
