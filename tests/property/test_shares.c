@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run is the same to the last bit on any number of ranks with any number of threads, whichever owns which node: random
- * bodies among random obstacles, by both methods of contact, crowds that run into each other, and crowds that break.
- * Each case has some of the ways to share it, or with 'all' all of them. `test_shares [CASES [FIRST_SEED [all]]]`. */
+/* A run is the same to the last bit on any number of ranks, with any number of threads, whichever owns which node:
+ * random bodies among random obstacles, by both methods of contact, crowds that run into each other, and crowds that
+ * break. Each case has some of the ways to share it, or with 'all' all of them.
+ * `test_shares [CASES [FIRST_SEED [all]]]`. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -127,7 +128,7 @@ TEST(who_owns_which_node_of_a_crowd_leaves_no_trace)
     assert_true(pushes || n_cases < 6);
 }
 
-/* By stress or by stretch, of each triangle or spring another one, so that impacts at the speed of a crowd break some. */
+/* By stress or by stretch, of each triangle or spring another one: impacts at the speed of a crowd break some. */
 static void weaken(dem_lattice *l, uint64_t seed)
 {
     const bool by_stress = seed % 2 == 0;
