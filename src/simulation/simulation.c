@@ -244,9 +244,11 @@ static double shortening(const dem_simulation *s, dem_status status)
     return status == DEM_OK && error > 1.0 ? fmax(least_factor, safety / sqrt(sqrt(error))) : 1.0;
 }
 
-/* Gives up a step that cannot be taken: the integrator is back at its start, and the last good state stays in force. */
+/* Gives up a step that cannot be taken: the integrator is back at its start, and the last good state stays in force, of
+ * which no residual is known any more. */
 static dem_status give_up(dem_simulation *s, dem_status status)
 {
+    s->path.f1 = NULL;
     if (status == DEM_OK)
         status = status_fail(DEM_ERROR_INTEGRATOR,
                              "contact events in the step from t = %.9g s fail its error test: rtol may be out of reach",
