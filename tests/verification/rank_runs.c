@@ -106,6 +106,7 @@ static void free_own(rank_runs_outcome *o)
 {
     free(o->views);
     free(o->notes);
+    free(o->steps);
     dem_checkpoint_destroy(o->kept);
 }
 
@@ -229,10 +230,23 @@ static dem_status see_rows(const dem_simulation *s, rank_runs_outcome *o, int lo
     return status;
 }
 
+/* Of a rank of several so far, but for those with which it has looked. */
+static rank_threads_counts count_calls(const dem_simulation *s, const rank_runs_outcome *o)
+{
+    if (s->model->domain == NULL) return (rank_threads_counts){0};
+    const rank_threads_counts all = rank_threads_count(s->model->ranks);
+    return (rank_threads_counts){all.reductions - o->of_looks.reductions, all.exchanges - o->of_looks.exchanges};
+}
+
 static dem_status look(const dem_simulation *s, rank_runs_outcome *o, int number)
 {
-    const dem_status status = see(s, &o->views[number]);
-    return status == DEM_OK ? see_rows(s, o, number) : status;
+    const rank_threads_counts before = count_calls(s, o);
+    dem_status status = see(s, &o->views[number]);
+    if (status == DEM_OK) status = see_rows(s, o, number);
+    const rank_threads_counts after = count_calls(s, o);
+    o->of_looks.reductions += after.reductions - before.reductions;
+    o->of_looks.exchanges += after.exchanges - before.exchanges;
+    return status;
 }
 
 /* ---- observers ---- */
@@ -266,10 +280,23 @@ static dem_status note_break(void *context, const dem_simulation *s, const dem_b
     return take_note(o, s, &note);
 }
 
-static dem_status look_at_step(void *context, const dem_simulation *s)
+static dem_status note_calls(const dem_simulation *s, rank_runs_outcome *o)
+{
+    enum { MANY = 256 };
+    if (o->n_steps % MANY == 1) o->steps = realloc(o->steps, (size_t)(o->n_steps + MANY) * sizeof *o->steps);
+    if (o->steps == NULL) return DEM_ERROR_MEMORY;
+    o->steps[o->n_steps - 1] = (rank_runs_step){count_calls(s, o), s->events, o->n_stops};
+    return DEM_OK;
+}
+
+static dem_status see_step(void *context, const dem_simulation *s)
 {
     rank_runs_outcome *o = context;
-    return ++o->n_steps == o->scene->step ? look(s, o, RANK_RUNS_STOPS) : DEM_OK;
+    const rank_runs_scene *scene = o->scene;
+    o->n_steps++;
+    if (scene->stops != NULL && scene->stops(s, o)) return DEM_STOPPED;
+    if (scene->counts_calls) return note_calls(s, o);
+    return o->n_steps == scene->step ? look(s, o, RANK_RUNS_STOPS) : DEM_OK;
 }
 
 /* Rank 0 has that of the whole, and keeps it. */
@@ -305,10 +332,11 @@ static dem_status begin(dem_simulation **s, const dem_model *model, const ranks 
                         rank_runs_outcome *o)
 {
     const dem_options *options = &o->scene->options;
+    const bool sees_steps = o->scene->step > 0 || o->scene->counts_calls || o->scene->stops != NULL;
     const dem_checkpoint *checkpoint = from != NULL && model->ranks->rank == 0 ? from->kept : NULL;
     const dem_observer observer =
         SIZED(dem_observer, .context = o, .event = note_event, .broken = note_break,
-              .step = o->scene->step > 0 ? look_at_step : NULL, .checkpoint = from == NULL ? keep_checkpoint : NULL);
+              .step = sees_steps ? see_step : NULL, .checkpoint = from == NULL ? keep_checkpoint : NULL);
     dem_status status =
         from != NULL ? dem_simulation_resume(s, model, options, checkpoint) : dem_simulation_create(s, model, options);
     if (status == DEM_OK && leads != NULL) status = dem_private_lead(*s, leads, options, checkpoint);
@@ -333,6 +361,8 @@ static dem_status advance_to(dem_simulation *s, int k, rank_runs_outcome *o)
         status = dem_simulation_advance(s, t);
     }
     const dem_status seen = look(s, o, k);
+    o->n_stops++;
+    o->calls = count_calls(s, o);
     note_failure(o, seen);
     return status == DEM_OK ? seen : status;
 }
@@ -368,7 +398,6 @@ static void run_rank(const ranks *r, void *context)
     rank_runs_outcome *o = &c->outcomes[r->rank];
     note_failure(o, domain_model_create(&model, r, c->scene->model, c->shares));
     if (o->status == DEM_OK) rank_runs_go(model, NULL, c->from, o);
-    o->calls = rank_threads_count(r);
     dem_model_destroy(model);
 }
 

@@ -37,6 +37,9 @@ typedef struct rank_runs_scene {
     bool is_seen_at_events; /* likewise, but for rows; and at breaks */
     /** Whether a checkpoint is the one to keep; NULL: the third is. */
     bool (*keeps)(const dem_simulation *s, const rank_runs_outcome *so_far);
+    bool counts_calls; /* up to the end of each step */
+    /** Whether the observer of a step ends the run; NULL: it does not. */
+    bool (*stops)(const dem_simulation *s, const rank_runs_outcome *so_far);
     /** Is called after an advance that has failed, and says whether it is to be tried once more; NULL: it is not. Then
      *  the state that has been left is looked at as that of a step is. */
     bool (*mends)(const rank_runs_outcome *so_far);
@@ -66,6 +69,13 @@ typedef struct rank_runs_note {
     rank_runs_view view;
 } rank_runs_note;
 
+/** How often a rank has called others up to the end of a step, but for looks; events and stops so far. */
+typedef struct rank_runs_step {
+    rank_threads_counts calls;
+    dem_index n_events;
+    int n_stops;
+} rank_runs_step;
+
 /** What one rank, or a process alone, sees of a run. */
 struct rank_runs_outcome {
     rank_runs_view *views; /* [RANK_RUNS_LOOKS] at stops, and at a step */
@@ -73,13 +83,16 @@ struct rank_runs_outcome {
     double *rows[RANK_RUNS_ROWS]; /* [RANK_RUNS_LOOKS][n of the whole][width]: ranks write what is their own */
     dem_index n_notes, n_breaks, capacity;
     rank_runs_note *notes; /* [n_notes] */
-    dem_index n_steps, n_checkpoints;
+    dem_index n_steps;     /* seen by the observer, if there is one; */
+    rank_runs_step *steps; /* [n_steps] if calls are counted */
+    dem_index n_checkpoints;
     dem_checkpoint *kept;
-    double kept_t;        /* s */
-    dem_index kept_notes; /* so many had been taken then */
-    rank_threads_counts calls;
-    dem_status status;            /* of the first advance that has failed, with */
-    char message[RANK_RUNS_TEXT]; /* empty: the run has come to its end */
+    double kept_t;                       /* s */
+    dem_index kept_notes;                /* so many had been taken then */
+    int n_stops;                         /* that have been looked at */
+    rank_threads_counts calls, of_looks; /* in all, but for looks; and for looks */
+    dem_status status;                   /* of the first advance that has failed, with */
+    char message[RANK_RUNS_TEXT];        /* empty: the run has come to its end */
     const rank_runs_scene *scene;
 };
 

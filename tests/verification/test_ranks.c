@@ -142,7 +142,6 @@ static dem_index exchanges_of(const dem_options *options, bool once_a_step, int 
     return n_ranks > 1 ? counts->evaluations + ahead + (options->method == DEM_METHOD_RK4) : 0;
 }
 
-/* Who looks needs an exchange. */
 static void share_rings(const scene *s, int n_rings, int n_ranks, const int32_t *owner, const rank_runs_outcome *from,
                         const rank_runs_outcome *whole)
 {
@@ -150,8 +149,7 @@ static void share_rings(const scene *s, int n_rings, int n_ranks, const int32_t 
     const rank_threads_counts calls = rank_runs_assert_shared(
         &s->run, n_ranks, &(domain_model_shares){.owner = owner, .n_rings = n_rings}, from, whole);
     if (s->run.options.checkpoint_steps == 0)
-        assert_int_equal(calls.exchanges,
-                         RANK_RUNS_LOOKS + exchanges_of(&s->run.options, is_once_a_step(s, n_rings), n_ranks, counts));
+        assert_int_equal(calls.exchanges, exchanges_of(&s->run.options, is_once_a_step(s, n_rings), n_ranks, counts));
 }
 
 static void share(const scene *s, int n_ranks, const int32_t *owner, const rank_runs_outcome *from,
@@ -233,8 +231,6 @@ static void check_led(int body, dem_method method)
 
 /* ---- how often ranks talk ---- */
 
-enum { MOST_STEPS = 2000 };
-
 /* A run that rank 0 leads, and which it watches. */
 typedef struct watched {
     const scene *scene;
@@ -305,79 +301,39 @@ TEST(a_leader_that_asks_how_far_the_run_is_gathers_nothing)
     close_scene(&s);
 }
 
-/* One rank's run, and its calls up to the end of each step. */
-typedef struct talk {
-    const scene *scene;
-    const int32_t *owner;
-    int n_rings; /* of ghosts */
-    const ranks *ranks;
-    double end; /* s */
-    rank_threads_counts calls[MOST_STEPS];
-    int n_steps;
-    dem_counts counts;
-    char failure[RANK_RUNS_TEXT]; /* empty: none */
-} talk;
-
-static dem_status note_calls(void *context, const dem_simulation *s)
-{
-    talk *t = context;
-    (void)s;
-    if (t->n_steps < MOST_STEPS) t->calls[t->n_steps++] = rank_threads_count(t->ranks);
-    return DEM_OK;
-}
-
-static dem_status talk_through(talk *t, const dem_model *model)
-{
-    dem_simulation *s = NULL;
-    const dem_observer observer = SIZED(dem_observer, .context = t, .step = note_calls);
-    t->counts.struct_size = sizeof t->counts;
-    dem_status status = dem_simulation_create(&s, model, &t->scene->run.options);
-    if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
-    if (status == DEM_OK) status = dem_simulation_advance(s, t->end);
-    if (status == DEM_OK) status = dem_simulation_counts(s, &t->counts);
-    dem_simulation_destroy(s);
-    return status;
-}
-
-/* Rank 0 tells of it when all are through. */
-static void talk_as_rank(const ranks *r, void *context)
-{
-    talk *t = context, own = *t;
-    own.ranks = r;
-    dem_model *model = NULL;
-    dem_status status = domain_model_create(&model, r, own.scene->run.model,
-                                            &(domain_model_shares){.owner = own.owner, .n_rings = own.n_rings});
-    if (status == DEM_OK) status = talk_through(&own, model);
-    if (status != DEM_OK) (void)snprintf(own.failure, RANK_RUNS_TEXT, "%s", dem_status_message());
-    dem_model_destroy(model);
-    if (r->rank == 0) *t = own;
-}
-
-/* On three ranks. */
-static void listen(talk *t, const scene *s, int n_rings, double end)
+/* Three ranks.  \param[out] all  [3] */
+static void listen(scene *s, int n_rings, double t_end, rank_runs_outcome *all)
 {
     const dem_lattice *l = dem_model_lattice(s->run.model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     assert_ok(partition_bisect(l, 3, owner));
-    *t = (talk){.scene = s, .owner = owner, .n_rings = n_rings, .end = end};
-    rank_threads_run(3, talk_as_rank, t);
-    t->owner = NULL;
-    assert_string_equal(t->failure, "");
-    assert_true(t->n_steps > 10);
+    s->run.counts_calls = true;
+    s->run.t_end = t_end;
+    rank_runs_make_outcomes(&s->run, 3, all);
+    rank_runs_together(&s->run, 3, &(domain_model_shares){.owner = owner, .n_rings = n_rings}, NULL, all);
+    assert_string_equal(all[0].message, "");
+    assert_true(all[0].n_steps > 10);
+}
+
+static dem_index count_rejected(const rank_runs_outcome *o)
+{
+    return o->views[RANK_RUNS_STOPS - 1].counts.rejected;
 }
 
 /* From its second step on, as the first evaluates where it begins. */
 static void check_calls(int body, dem_method method, int n_rings, int n_exchanges)
 {
     scene s;
-    talk t;
+    rank_runs_outcome all[3];
     open_scene(&s, body, method);
-    listen(&t, &s, n_rings, 1e-4);
-    assert_int_equal(t.counts.rejected, 0);
-    for (int k = 2; k < t.n_steps; k++) {
-        assert_int_equal(t.calls[k].exchanges - t.calls[k - 1].exchanges, n_exchanges);
-        assert_int_equal(t.calls[k].reductions - t.calls[k - 1].reductions, 1);
+    listen(&s, n_rings, 1e-4, all);
+    assert_int_equal(count_rejected(all), 0);
+    for (dem_index k = 2; k < all->n_steps; k++) {
+        const rank_runs_step *step = &all->steps[k];
+        assert_int_equal(step->calls.exchanges - step[-1].calls.exchanges, n_exchanges);
+        assert_int_equal(step->calls.reductions - step[-1].calls.reductions, 1);
     }
+    rank_runs_free_outcomes(all, 3);
     close_scene(&s);
 }
 
@@ -403,13 +359,15 @@ TEST(an_attempt_that_is_rejected_needs_two_reductions_at_most)
 {
     for (int n_rings = 1; n_rings <= STEP_RINGS; n_rings += STEP_RINGS - 1) {
         scene s;
-        talk t;
+        rank_runs_outcome all[3];
         open_scene(&s, 0, DEM_METHOD_FEHLBERG45);
-        listen(&t, &s, n_rings, 3e-4);
-        assert_true(t.counts.rejected > 0);
-        const dem_index n = t.n_steps - 1, least = n + t.counts.rejected;
-        assert_in_range(t.calls[n].reductions - t.calls[0].reductions, least, least + t.counts.rejected + 3);
-        assert_int_equal(t.calls[n].exchanges - t.calls[0].exchanges, (n_rings == 1 ? 6 : 1) * least + 1);
+        listen(&s, n_rings, 3e-4, all);
+        const dem_index n_rejected = count_rejected(all), n = all->n_steps - 1, least = n + n_rejected;
+        const rank_threads_counts *first = &all->steps[0].calls, *last = &all->steps[n].calls;
+        assert_true(n_rejected > 0);
+        assert_in_range(last->reductions - first->reductions, least, least + n_rejected + 3);
+        assert_int_equal(last->exchanges - first->exchanges, (n_rings == 1 ? 6 : 1) * least + 1);
+        rank_runs_free_outcomes(all, 3);
         close_scene(&s);
     }
 }
@@ -472,83 +430,28 @@ TEST(a_team_of_one_steps_as_a_process_alone_and_any_ranks_take_fused_steps)
 
 /* ---- failures ---- */
 
-/* What each rank says. */
-typedef struct refusal {
-    const scene *scene;
-    const int32_t *owner;
-    const dem_checkpoint *from; /* NULL: the run begins */
-    dem_status status[RANK_RUNS_MOST];
-    char messages[RANK_RUNS_MOST][RANK_RUNS_TEXT];
-    int stops; /* the rank whose observer stops the run; -1: none */
-    dem_index n_steps[RANK_RUNS_MOST];
-} refusal;
-
-typedef struct watcher {
-    bool stops;
-    dem_index *n_steps;
-} watcher;
-
-static dem_status count_step(void *context, const dem_simulation *s)
-{
-    const watcher *w = context;
-    (void)s;
-    return ++*w->n_steps == 3 && w->stops ? DEM_STOPPED : DEM_OK;
-}
-
-static dem_status try_run(const dem_model *model, refusal *c, int rank)
-{
-    dem_simulation *s = NULL;
-    watcher w = {c->stops == rank, &c->n_steps[rank]};
-    const dem_observer observer = SIZED(dem_observer, .context = &w, .step = count_step);
-    const dem_options *o = &c->scene->run.options;
-    dem_status status = c->from != NULL ? dem_simulation_resume(&s, model, o, rank == 0 ? c->from : NULL)
-                                        : dem_simulation_create(&s, model, o);
-    if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
-    if (status == DEM_OK) status = dem_simulation_advance(s, 2e-4);
-    dem_simulation_destroy(s);
-    return status;
-}
-
-static void try_rank(const ranks *r, void *context)
-{
-    refusal *c = context;
-    dem_model *model = NULL;
-    dem_status status = domain_model_create(&model, r, c->scene->run.model, &(domain_model_shares){.owner = c->owner});
-    if (status == DEM_OK) status = try_run(model, c, r->rank);
-    c->status[r->rank] = status;
-    (void)snprintf(c->messages[r->rank], RANK_RUNS_TEXT, "%s", status != DEM_OK ? dem_status_message() : "");
-    dem_model_destroy(model);
-}
-
-/* On four ranks. */
-static refusal refuse(const scene *s, int stops, const dem_checkpoint *from)
+/* On four ranks.  \param[out] all  [4] */
+static void refuse(const scene *s, const rank_runs_outcome *from, rank_runs_outcome *all)
 {
     const dem_lattice *l = dem_model_lattice(s->run.model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     assert_ok(partition_bisect(l, 4, owner));
-    refusal c = {.scene = s, .owner = owner, .stops = stops, .from = from};
-    rank_threads_run(4, try_rank, &c);
-    c.owner = NULL;
-    return c;
+    rank_runs_make_outcomes(&s->run, 4, all);
+    rank_runs_together(&s->run, 4, &(domain_model_shares){.owner = owner}, from, all);
 }
 
-/* Every rank gives up as one process does, after as many steps. */
+/* Every rank gives up as one process does, after as many steps, and leaves the same state. */
 static void check_failure(const dem_lattice *l, dem_method method)
 {
-    scene s = {.run = {.model = support_model(l, NULL, 0), .options = dem_options_default()}};
+    scene s = {.run = {.model = support_model(l, NULL, 0), .options = dem_options_default(), .t_end = 2e-4}};
+    CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     s.run.options.method = method;
     s.run.options.checkpoint_steps = 0;
-    refusal whole = {.scene = &s, .stops = -1};
-    const dem_status expected = try_run(s.run.model, &whole, 0);
-    char message[RANK_RUNS_TEXT];
-    (void)snprintf(message, RANK_RUNS_TEXT, "%s", dem_status_message());
-    assert_int_equal(expected, DEM_ERROR_INTEGRATOR);
-    const refusal c = refuse(&s, -1, NULL);
-    for (int k = 0; k < 4; k++) {
-        assert_int_equal(c.status[k], expected);
-        assert_string_equal(c.messages[k], message);
-        assert_int_equal(c.n_steps[k], whole.n_steps[0]);
-    }
+    rank_runs_outcome whole = rank_runs_alone(&s.run);
+    assert_int_equal(whole.status, DEM_ERROR_INTEGRATOR);
+    assert_ok(partition_bisect(l, 4, owner));
+    (void)rank_runs_assert_shared(&s.run, 4, &(domain_model_shares){.owner = owner}, NULL, &whole);
+    rank_runs_free_outcome(&whole);
     close_scene(&s);
 }
 
@@ -580,11 +483,13 @@ TEST(what_one_rank_refuses_is_refused_by_all)
     s.boundaries[0] = (dem_boundary)SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 3, .nodes = twice);
     s.run.options.boundaries = s.boundaries;
     s.run.options.n_boundaries = 1;
-    const refusal c = refuse(&s, -1, NULL);
+    rank_runs_outcome all[4];
+    refuse(&s, NULL, all);
     for (int k = 0; k < 4; k++) {
-        assert_int_equal(c.status[k], DEM_ERROR_ARGUMENT);
-        assert_string_equal(c.messages[k], "boundary 0: node 0 is named twice");
+        assert_int_equal(all[k].status, DEM_ERROR_ARGUMENT);
+        assert_string_equal(all[k].message, "boundary 0: node 0 is named twice");
     }
+    rank_runs_free_outcomes(all, 4);
     close_scene(&s);
 }
 
@@ -596,26 +501,36 @@ TEST(a_checkpoint_of_another_model_is_refused_by_all)
     other.run.options.checkpoint_steps = 4;
     rank_runs_outcome whole = rank_runs_alone(&other.run);
     open_scene(&s, 0, DEM_METHOD_VERLET);
-    const refusal c = refuse(&s, -1, whole.kept);
+    rank_runs_outcome all[4];
+    refuse(&s, &whole, all);
     for (int k = 0; k < 4; k++) {
-        assert_int_equal(c.status[k], DEM_ERROR_IO);
-        assert_string_equal(c.messages[k], c.messages[0]);
-        assert_non_null(strstr(c.messages[k], "the checkpoint has "));
+        assert_int_equal(all[k].status, DEM_ERROR_IO);
+        assert_string_equal(all[k].message, all[0].message);
+        assert_non_null(strstr(all[k].message, "the checkpoint has "));
     }
+    rank_runs_free_outcomes(all, 4);
     rank_runs_free_outcome(&whole);
     close_scene(&other);
     close_scene(&s);
 }
 
+static bool stop_third_step(const dem_simulation *s, const rank_runs_outcome *so_far)
+{
+    return s->model->ranks->rank == 2 && so_far->n_steps == 3;
+}
+
 TEST(an_observer_of_one_rank_stops_all)
 {
     scene s;
+    rank_runs_outcome all[4];
     open_scene(&s, 0, DEM_METHOD_DOPRI45);
-    const refusal c = refuse(&s, 2, NULL);
+    s.run.stops = stop_third_step;
+    refuse(&s, NULL, all);
     for (int k = 0; k < 4; k++) {
-        assert_int_equal(c.status[k], DEM_STOPPED);
-        assert_int_equal(c.n_steps[k], 3);
+        assert_int_equal(all[k].status, DEM_STOPPED);
+        assert_int_equal(all[k].n_steps, 3);
     }
+    rank_runs_free_outcomes(all, 4);
     close_scene(&s);
 }
 

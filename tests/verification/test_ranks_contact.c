@@ -2,7 +2,6 @@
 /* Ranks that share bodies which fall on obstacles, as threads: motion, quadratures, ledger, contacts and events have
  * the bits of the whole model in one process, whatever the shares. The body is large enough to have nodes that are not
  * common ones. `test_ranks_contact [long]`. */
-#include <stdio.h>
 #include <string.h>
 
 #include "ask.h"
@@ -214,91 +213,51 @@ TEST(a_run_with_a_motion_by_a_function_is_not_led)
 
 /* ---- how often ranks talk ---- */
 
-enum { MOST_STEPS = 2000, N_TALKING = 3 };
+enum { N_TALKING = 3 };
 
-/* One rank's run: its calls and events up to the end of each step. */
-typedef struct talk {
-    const scene *scene;
-    const int32_t *owner;
-    int n_rings; /* of ghosts */
-    const ranks *ranks;
-    rank_threads_counts calls[MOST_STEPS];
-    dem_index n_events[MOST_STEPS];
-    int n_steps;
-    char failure[RANK_RUNS_TEXT]; /* empty: none */
-} talk;
-
-static dem_status note_calls(void *context, const dem_simulation *s)
-{
-    talk *t = context;
-    if (t->n_steps == MOST_STEPS) return DEM_OK;
-    t->n_events[t->n_steps] = s->events;
-    t->calls[t->n_steps++] = rank_threads_count(t->ranks);
-    return DEM_OK;
-}
-
-static void talk_as_rank(const ranks *r, void *context)
-{
-    talk *t = (talk *)context + r->rank;
-    dem_model *model = NULL;
-    dem_simulation *s = NULL;
-    const dem_observer observer = SIZED(dem_observer, .context = t, .step = note_calls);
-    t->ranks = r;
-    dem_status status = domain_model_create(&model, r, t->scene->run.model,
-                                            &(domain_model_shares){.owner = t->owner, .n_rings = t->n_rings});
-    if (status == DEM_OK) status = dem_simulation_create(&s, model, &t->scene->run.options);
-    if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
-    if (status == DEM_OK) status = dem_simulation_advance(s, t->scene->run.t_end);
-    if (status != DEM_OK) (void)snprintf(t->failure, RANK_RUNS_TEXT, "%s", dem_status_message());
-    dem_simulation_destroy(s);
-    dem_model_destroy(model);
-}
-
-/* One for each of three ranks.  \param[out] t  [N_TALKING]
- * \param height  m, above the place where it touches at once */
-static void listen(talk *t, dem_method method, int n_rings, double height)
+/* \param height  m, above the place where it touches at once  \param[out] all  [N_TALKING] */
+static void listen(dem_method method, int n_rings, double height, rank_runs_outcome *all)
 {
     scene s;
     const kind k = {.ground = PLANE, .restitution = 0.5};
     open_scene(&s, &k, method, height);
     s.run.options.checkpoint_steps = 0;
+    s.run.counts_calls = true;
     const dem_lattice *l = dem_model_lattice(s.run.model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     assert_ok(partition_bisect(l, N_TALKING, owner));
-    for (int q = 0; q < N_TALKING; q++) t[q] = (talk){.scene = &s, .owner = owner, .n_rings = n_rings};
-    rank_threads_run(N_TALKING, talk_as_rank, t);
-    for (int q = 0; q < N_TALKING; q++) {
-        assert_string_equal(t[q].failure, "");
-        t[q].scene = NULL;
-        t[q].owner = NULL;
-    }
-    assert_in_range(t->n_steps, 10, MOST_STEPS - 1);
+    rank_runs_make_outcomes(&s.run, N_TALKING, all);
+    rank_runs_together(&s.run, N_TALKING, &(domain_model_shares){.owner = owner, .n_rings = n_rings}, NULL, all);
+    for (int q = 0; q < N_TALKING; q++) assert_string_equal(all[q].message, "");
+    assert_true(all->n_steps >= 10);
     close_scene(&s);
 }
 
 /* From its second step on, as the first evaluates where it begins. Where nothing happens it is what a free body needs.
- * A step with events needs the ghosts at its end, and whether observers have failed at one; the next step the norm of
- * the state that events have changed, and fixed steps how stiff it is, for which RK4 needs the ghosts again. */
+ * A step with events needs the ghosts at its end, and whether observers have failed at one, before each look in it, too;
+ * the next step the norm of the state that events have changed, and fixed steps how stiff it is, for which RK4 needs the
+ * ghosts again. */
 TEST(events_cost_a_few_calls_a_step_however_many_there_are)
 {
     static const int n_exchanges[] = {6, 6, 4, 1, 1}, after_events[] = {2, 2, 3, 1, 2};
     for (int m = 0; m < 5; m++)
         for (int is_high = 0; is_high < 2; is_high++) {
-            static talk all[N_TALKING];
-            const talk *t = &all[0];
+            rank_runs_outcome all[N_TALKING];
             const bool has_rings = m == 4; /* Fehlberg's pair again */
             int n_busy = 0;
-            listen(all, methods[has_rings ? 0 : m], has_rings ? STEP_RINGS : 1, is_high ? 0.1 : 0.0);
-            for (int k = 2; k < t->n_steps; k++) {
-                const bool busy = t->n_events[k] > t->n_events[k - 1],
-                           was_busy = t->n_events[k - 1] > t->n_events[k - 2];
+            listen(methods[has_rings ? 0 : m], has_rings ? STEP_RINGS : 1, is_high ? 0.1 : 0.0, all);
+            for (dem_index k = 2; k < all->n_steps; k++) {
+                const rank_runs_step *t = &all->steps[k];
+                const bool busy = t->n_events > t[-1].n_events, was_busy = t[-1].n_events > t[-2].n_events;
+                const int n_stops = busy ? t->n_stops - t[-1].n_stops : 0;
                 n_busy += busy;
-                assert_int_equal(t->calls[k].exchanges - t->calls[k - 1].exchanges,
+                assert_int_equal(t->calls.exchanges - t[-1].calls.exchanges,
                                  n_exchanges[m] + busy + (was_busy && m == 2));
-                assert_int_equal(t->calls[k].reductions - t->calls[k - 1].reductions,
-                                 1 + busy + (was_busy ? after_events[m] : 0));
+                assert_int_equal(t->calls.reductions - t[-1].calls.reductions,
+                                 1 + busy + n_stops + (was_busy ? after_events[m] : 0));
             }
             assert_true(is_high ? n_busy == 0 : n_busy > 10);
+            rank_runs_free_outcomes(all, N_TALKING);
         }
 }
 
@@ -310,7 +269,6 @@ typedef struct stopped_run {
     const int32_t *owner;
     dem_status status[RANK_RUNS_MOST];
     dem_counts counts[RANK_RUNS_MOST];
-    char messages[RANK_RUNS_MOST][RANK_RUNS_TEXT];
     int n_seen, last; /* events, and the one at which the run is stopped */
 } stopped_run;
 
@@ -342,37 +300,41 @@ static void stop_rank(const ranks *r, void *context)
     dem_status status = domain_model_create(&model, r, c->scene->run.model, &(domain_model_shares){.owner = c->owner});
     if (status == DEM_OK) status = run_until_stopped(model, c, r->rank);
     c->status[r->rank] = status;
-    (void)snprintf(c->messages[r->rank], RANK_RUNS_TEXT, "%s", status != DEM_OK ? dem_status_message() : "");
     dem_model_destroy(model);
 }
 
-/* All ranks of four end as a process alone does. */
-static void assert_same_end(const scene *s, int last, dem_status expected)
-{
-    const dem_lattice *l = dem_model_lattice(s->run.model);
-    CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
-    stopped_run one = {.scene = s, .last = last}, all = {.scene = s, .last = last, .owner = owner};
-    assert_int_equal(run_until_stopped(s->run.model, &one, 0), expected);
-    (void)snprintf(one.messages[0], RANK_RUNS_TEXT, "%s", expected != DEM_STOPPED ? dem_status_message() : "");
-    assert_ok(partition_bisect(l, 4, owner));
-    rank_threads_run(4, stop_rank, &all);
-    for (int k = 0; k < 4; k++) {
-        assert_int_equal(all.status[k], expected);
-        assert_memory_equal(&all.counts[k], &one.counts[0], sizeof one.counts[0]);
-        if (expected != DEM_STOPPED) assert_string_equal(all.messages[k], one.messages[0]);
-    }
-    assert_int_equal(all.n_seen, one.n_seen);
-}
-
+/* At the tenth event, as a process alone. */
 TEST(an_event_that_one_rank_watches_stops_all)
 {
     for (int exact = 0; exact < 2; exact++) {
         scene s;
         const kind k = {.ground = PLANE, .contact = exact ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL, .restitution = 0.5};
         open_scene(&s, &k, DEM_METHOD_FEHLBERG45, 0.0);
-        assert_same_end(&s, 10, DEM_STOPPED);
+        const dem_lattice *l = dem_model_lattice(s.run.model);
+        CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
+        stopped_run one = {.scene = &s, .last = 10}, all = {.scene = &s, .last = 10, .owner = owner};
+        assert_int_equal(run_until_stopped(s.run.model, &one, 0), DEM_STOPPED);
+        assert_ok(partition_bisect(l, 4, owner));
+        rank_threads_run(4, stop_rank, &all);
+        for (int q = 0; q < 4; q++) {
+            assert_int_equal(all.status[q], DEM_STOPPED);
+            assert_memory_equal(&all.counts[q], &one.counts[0], sizeof one.counts[0]);
+        }
+        assert_int_equal(all.n_seen, one.n_seen);
         close_scene(&s);
     }
+}
+
+/* All ranks of four end as a process alone does. */
+static void assert_same_failure(const scene *s, dem_status expected)
+{
+    const dem_lattice *l = dem_model_lattice(s->run.model);
+    CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
+    rank_runs_outcome whole = rank_runs_alone(&s->run);
+    assert_int_equal(whole.status, expected);
+    assert_ok(partition_bisect(l, 4, owner));
+    share(s, 0, 4, owner, &whole);
+    rank_runs_free_outcome(&whole);
 }
 
 /* Messages have the numbers of nodes in the whole. */
@@ -381,7 +343,7 @@ TEST(what_starts_inside_an_obstacle_is_refused_by_all)
     scene s;
     const kind k = {.ground = PLANE, .restitution = 0.5};
     open_scene(&s, &k, DEM_METHOD_FEHLBERG45, -1e-3);
-    assert_same_end(&s, 0, DEM_ERROR_MODEL);
+    assert_same_failure(&s, DEM_ERROR_MODEL);
     close_scene(&s);
 }
 
@@ -397,7 +359,7 @@ TEST(too_many_impacts_end_the_run_of_all)
         open_scene(&s, &k, DEM_METHOD_FEHLBERG45, 0.0);
         s.run.options.max_impacts = 1;
         s.run.options.window = 0.0;
-        assert_same_end(&s, 0, DEM_ERROR_CONTACT);
+        assert_same_failure(&s, DEM_ERROR_CONTACT);
         close_scene(&s);
     }
 }
