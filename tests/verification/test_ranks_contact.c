@@ -234,9 +234,9 @@ static void listen(dem_method method, int n_rings, double height, rank_runs_outc
 }
 
 /* From its second step on, as the first evaluates where it begins. Where nothing happens it is what a free body needs.
- * A step with events needs the ghosts at its end, and whether observers have failed at one, before each look in it, too;
- * the next step the norm of the state that events have changed, and fixed steps how stiff it is, for which RK4 needs the
- * ghosts again. */
+ * A step with events needs the ghosts at its end, and whether observers have failed at one, before each look in it,
+ * too; the next step the norm of the state that events have changed, and fixed steps how stiff it is, for which RK4
+ * needs the ghosts again. */
 TEST(events_cost_a_few_calls_a_step_however_many_there_are)
 {
     static const int n_exchanges[] = {6, 6, 4, 1, 1}, after_events[] = {2, 2, 3, 1, 2};
