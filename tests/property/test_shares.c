@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A run is the same to the last bit on any number of ranks, with any number of threads, whichever owns which node:
  * random bodies among random obstacles, by both methods of contact, crowds that run into each other, and crowds that
- * break. Each case has some of the ways to share it, or with 'all' all of them.
+ * break. Each case has some of the ways to share it, or with 'all' all of them; by every other one it goes on from a
+ * checkpoint.
  * `test_shares [CASES [FIRST_SEED [all]]]`. */
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +15,7 @@
 #include "verification/rank_runs.h"
 #include "verification/scattered.h"
 
-static long n_cases = 6, first_seed = 1;
+static long n_cases = 6, first_seed = 1, n_runs = 0, n_resumed = 0;
 static bool has_all = false;
 
 /* ---- ways to share a lattice ---- */
@@ -43,8 +44,9 @@ static void find_owners(const dem_lattice *l, double spacing, shares_kind how, i
 
 /* ---- runs ---- */
 
-static void compare(const rank_runs_scene *run, const rank_runs_outcome *alone, int n_ranks, shares_kind how,
-                    unsigned long seed)
+/* \param from  of whose checkpoint ranks go on; NULL: they begin */
+static void compare(const rank_runs_scene *run, const rank_runs_outcome *from, const rank_runs_outcome *alone,
+                    int n_ranks, shares_kind how, unsigned long seed)
 {
     const dem_lattice *l = dem_model_lattice(run->model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
@@ -55,9 +57,9 @@ static void compare(const rank_runs_scene *run, const rank_runs_outcome *alone, 
                        &(domain_model_shares){.owner = owner,
                                               .touching = run->options.bodies != DEM_BODIES_NONE,
                                               .n_rings = n_ranks % 2 == 0 ? 3 : 1},
-                       NULL, all);
+                       from, all);
     for (int k = 0; k < n_ranks; k++) {
-        const char *what = rank_runs_difference(&all[k], alone, NULL);
+        const char *what = rank_runs_difference(&all[k], alone, from);
         if (what != NULL)
             fail_msg(
                 "seed %lu, contact %d, method %d, threads %d, shares %d: rank %d of %d has another %s: '%s', alone "
@@ -68,7 +70,8 @@ static void compare(const rank_runs_scene *run, const rank_runs_outcome *alone, 
     rank_runs_free_outcomes(all, n_ranks);
 }
 
-/* Of the ways to share it two, others for each seed, or all.  \return what a process alone sees */
+/* Of the ways to share it two, others for each seed, or all; every other one from a checkpoint, if there is one.
+ * \return what a process alone sees */
 static rank_runs_outcome check(rank_runs_scene *run, unsigned long seed)
 {
     enum { N_NUMBERS = 5, N_WAYS = 2 * N_NUMBERS * N_SHARES, SOME = 2 };
@@ -80,7 +83,10 @@ static rank_runs_outcome check(rank_runs_scene *run, unsigned long seed)
         const unsigned long way = has_all ? k : 7 * seed + 13 * k;
         const int n_ranks = numbers[way % N_NUMBERS];
         run->options.threads = 1 + (int)(way / (N_NUMBERS * N_SHARES) % 2);
-        if (n_ranks <= n) compare(run, &alone, n_ranks, (shares_kind)(way / N_NUMBERS % N_SHARES), seed);
+        const rank_runs_outcome *from = k % 2 == 1 && alone.kept != NULL ? &alone : NULL;
+        n_runs += n_ranks <= n;
+        n_resumed += n_ranks <= n && from != NULL;
+        if (n_ranks <= n) compare(run, from, &alone, n_ranks, (shares_kind)(way / N_NUMBERS % N_SHARES), seed);
     }
     return alone;
 }
@@ -108,6 +114,7 @@ static rank_runs_outcome check_crowd(crowd *c, double t_end)
 {
     CLEANUP(free_model) dem_model *whole = support_model(&c->lattice, &c->walls, c->boxed);
     rank_runs_scene run = {.model = whole, .options = c->options, .t_end = t_end};
+    run.options.checkpoint_steps = 40;
     rank_runs_outcome alone = check(&run, (unsigned long)c->seed);
     alone.scene = NULL;
     return alone;
@@ -151,8 +158,10 @@ TEST(who_owns_which_node_of_a_crowd_that_breaks_leaves_no_trace)
         rank_runs_free_outcome(&alone);
         dem_lattice_free(&c.lattice);
     }
-    print_message("# %lld breaks\n", (long long)n_breaks);
     assert_true(n_breaks > 0 || n_cases < 6);
+    print_message("# %lld breaks; in all tests %ld runs on ranks, %ld of them from a checkpoint\n", (long long)n_breaks,
+                  n_runs, n_resumed);
+    assert_true(n_resumed > n_runs / 4 || n_cases < 6);
 }
 
 int main(int argc, char **argv)
