@@ -4,8 +4,7 @@
 
 A run is killed, and the same command goes on with 1 to 3 ranks and is killed, until one comes to its end: its data are
 those of a run that nothing happened to. Then another run begins, of free bodies, of bodies that touch, or of one that
-breaks, until there were that many kills. No rank is left ten seconds after one has gone. mpirun may miss the end of its
-last process where that is killed as it starts: how often it has done so is printed."""
+breaks, until there were that many kills. Every run that has lost a rank ends within ten seconds."""
 import os
 import pathlib
 import random
@@ -33,7 +32,7 @@ def is_alive(pid):
 class Kills:
     def __init__(self, folder, number, seed):
         self.folder, self.left, self.chance = folder, number, random.Random(seed)
-        self.starts = self.runs = self.missed = 0
+        self.starts = self.runs = 0
         self.longest = {}  # s, of a run that nothing happens to, by its deck and the number of its ranks
         self.slowest = 0.0  # s, from a kill to the end
         self.by_rank = [0] * MOST_RANKS
@@ -83,8 +82,7 @@ class Kills:
             alive = [pid for pid in test_batch.children(run.pid) if is_alive(pid)]
             run.kill()
             run.communicate()
-            self.missed += not alive
-            return False, f"{len(alive)} of {n} ranks wait for one that was killed {LONGEST} s ago" if alive else ""
+            return False, f"{LONGEST} s after a kill mpirun has not ended, {len(alive)} of its {n} ranks are left"
         self.slowest = max(self.slowest, time.monotonic() - begin) if killed else self.slowest
         if not killed and run.returncode != 0:
             return False, f"{n} ranks end with {run.returncode}, which nobody has killed: {said}"
@@ -132,8 +130,7 @@ def main(number, seed):
         wrong = kills.all()
         counts = ", ".join(f"{n} of rank {rank}" for rank, n in enumerate(kills.by_rank))
         print(f"seed {seed}: {number - kills.left} kills ({counts}) in {kills.starts} starts, {kills.runs} runs to "
-              f"their end; at most {kills.slowest:.1f} s from a kill to the end, but for {kills.missed} that mpirun has "
-              "missed")
+              f"their end; at most {kills.slowest:.1f} s from a kill to the end")
         if wrong:
             print(wrong)
         return wrong != ""
