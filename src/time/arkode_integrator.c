@@ -22,11 +22,8 @@
 
 enum {
     max_retries = 10, /* of a step whose derivative is not finite */
-    most_vectors = 20 /* of ARKODE and here, but for the stages */
+    most_vectors = 19 /* of ARKODE and here, but for the stages */
 };
-
-/* The weight of quadratures and padding in the norm of the error, in place of 1/tolerance: practically none. */
-static const double no_weight = 1e-100;
 
 /* The life of a step: ARKODE returns it in y; fetch_step() puts its ends into y1, f0, f1; it is handed out (at_end);
  * the caller settles it, whole or cut, or takes it back; go_on() makes its end the start y0, f0 of the next. */
@@ -37,11 +34,11 @@ typedef struct arkode_integrator {
     void *arkode;
     arkode_controller controller;
     arkode_errors errors;
+    error_weights *weights;
     nvector_space *space;
     deferral *deferral;      /* NULL: stages are evaluated when ARKODE asks for them */
     N_Vector y;              /* what ARKODE returns */
     N_Vector y0, y1, f0, f1; /* the accepted step for the dense output; y0 is the last accepted state */
-    N_Vector weights;        /* of the error, the same at all times */
     double root;             /* the root function at the end of the last step; 1 after a restart */
     double t;                /* last accepted time, of y0 */
     double t1;               /* end of the step that y1, f0, f1 hold */
@@ -156,11 +153,12 @@ static int call_root_function(sunrealtype t, N_Vector y, sunrealtype *g, void *u
     return isfinite(*g) ? 0 : -1;
 }
 
+/* The vector stays as it is, without numbers: norms have theirs from the space. */
 static int call_weights(N_Vector y, N_Vector weights, void *user)
 {
-    const arkode_integrator *I = user;
     (void)y;
-    nvector_share(I->weights, weights);
+    (void)weights;
+    (void)user;
     return 0;
 }
 
@@ -178,12 +176,15 @@ static void keep_message(const char *message, void *user)
 static dem_status allocate(arkode_integrator *I)
 {
     const dem_index n = state_size(&I->problem.layout);
-    N_Vector *const vectors[] = {&I->y, &I->y0, &I->y1, &I->f0, &I->f1, &I->weights};
+    N_Vector *const vectors[] = {&I->y, &I->y0, &I->y1, &I->f0, &I->f1};
     CHECK(SUNContext_Create(SUN_COMM_NULL, &I->sundials) == 0, DEM_ERROR_MEMORY, "SUNDIALS gives no context");
     CHECK(arkode_listen_first(I->sundials, &I->errors) == 0, DEM_ERROR_MEMORY, "out of memory for SUNDIALS");
+    I->weights = error_weights_create(&I->problem);
+    CHECK(I->weights != NULL, DEM_ERROR_MEMORY, "out of memory for the weights of the error");
     I->space = nvector_space_create(&(nvector_shape){.ranks = ode_problem_ranks(&I->problem),
                                                      .length = n,
                                                      .n_whole = state_size(ode_problem_whole(&I->problem)),
+                                                     .weights = I->weights,
                                                      .ops = I->problem.ops,
                                                      .team = I->problem.team},
                                     most_vectors + I->table.stages);
@@ -197,36 +198,18 @@ static dem_status allocate(arkode_integrator *I)
     return DEM_OK;
 }
 
-/* ARKODE's norm is the mean over all N = 2 dim n_rows entries of the whole state, sqrt(sum of (w_k e_k)^2/N). The
- * quadratures, the padding and the ghosts have no part in the error, so the weights of the nodes are
- *   share/position_error and share/velocity_error, with share^2 = n_rows/n_nodes,
- * which makes the norm the mean over the 2 dim n_nodes entries of all nodes. */
-static void fill_weights(arkode_integrator *I)
-{
-    const state_layout *l = &I->problem.layout, *whole = ode_problem_whole(&I->problem);
-    const dem_index v = state_velocities(l);
-    const double share = sqrt((double)whole->n_rows / (double)whole->n_nodes);
-    double *w = nvector_fresh(I->weights);
-    for (dem_index k = 0; k < state_size(l); k++) w[k] = no_weight;
-    for (dem_index k = 0; k < state_row(l, l->n_nodes); k++) {
-        if (!ode_problem_is_own(&I->problem, k / l->dim)) continue;
-        w[k] = share / I->problem.position_error;
-        w[v + k] = share / I->problem.velocity_error;
-    }
-}
-
 /* Without error control ARKODE asks for no norm. */
 static void defer_stages(arkode_integrator *I)
 {
     const bool shared = I->problem.domain != NULL;
     const deferral_owner owner = {.problem = &I->problem,
                                   .space = I->space,
+                                  .weights = I->weights,
                                   .derivative = shared ? evaluate_stage : evaluate,
                                   .count = shared ? count_stages : count_evaluations,
                                   .context = I};
     if (I->problem.fixed_step > 0.0 || butcher_ends_in_stage(&I->table)) return;
     I->deferral = deferral_create(&owner, I->table.stages - 1);
-    if (I->deferral != NULL) deferral_set_weights(I->deferral, I->weights);
 }
 
 /* Ranks that share the nodes see whether an attempt succeeds by way of what ARKODE adds up. */
@@ -238,8 +221,7 @@ static void watch_sums(arkode_integrator *I)
                                                               .space = I->space,
                                                               .deferral = I->deferral,
                                                               .y0 = I->y0,
-                                                              .f1 = I->f1,
-                                                              .weights = I->weights});
+                                                              .f1 = I->f1});
 }
 
 /* The state from which the next step goes; its derivative is not known. The root function is above 0 there: what has
@@ -313,7 +295,6 @@ static dem_status set_up(arkode_integrator *I, double t, const double *y)
     CHECK(I->table.embedded_order > 0 || I->problem.fixed_step > 0.0, DEM_ERROR_ARGUMENT,
           "a method without error estimate needs a fixed step");
     TRY(allocate(I));
-    fill_weights(I);
     defer_stages(I);
     watch_sums(I);
     start_from(I, t, y);
@@ -324,7 +305,7 @@ static dem_status set_up(arkode_integrator *I, double t, const double *y)
     failed |= set_table(I);
     failed |=
         ARKodeSetInterpolantDegree(I->arkode, 3); /* 4 and more would call the derivative at every root iteration */
-    /* Weights are given, not tolerances: they depend on no state, and every step shares one vector of them. */
+    /* Weights are given, not tolerances: they depend on no state. */
     failed |= ARKodeWFtolerances(I->arkode, call_weights);
     /* No limit on the number of steps in a call, and no warnings of steps below rounding, which would be printed. */
     failed |= ARKodeSetMaxNumSteps(I->arkode, -1);
@@ -343,11 +324,12 @@ static void arkode_integrator_destroy(void *self)
     if (I == NULL) return;
     if (I->arkode != NULL) ARKodeFree(&I->arkode);
     arkode_free_controller(I->controller);
-    N_Vector const vectors[] = {I->y, I->y0, I->y1, I->f0, I->f1, I->weights};
+    N_Vector const vectors[] = {I->y, I->y0, I->y1, I->f0, I->f1};
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
         if (vectors[k] != NULL) N_VDestroy(vectors[k]);
     deferral_free(I->deferral);
     nvector_space_free(I->space);
+    error_weights_free(I->weights);
     if (I->sundials != NULL) SUNContext_Free(&I->sundials);
     free(I);
 }
@@ -402,12 +384,13 @@ static dem_status retry(arkode_integrator *I, double *h)
 static dem_index worst_node(const arkode_integrator *I)
 {
     const state_layout *l = &I->problem.layout;
-    const double *error = nvector_values(I->y1), *weight = nvector_values(I->weights);
+    const double *error = nvector_values(I->y1);
     dem_index worst = 0;
     double most = -1.0;
     for (dem_index k = 0; k < state_row(l, l->n_nodes) && most < INFINITY; k++) {
         const dem_index v = k + state_velocities(l);
-        const double here = fabs(error[k] * weight[k]) + fabs(error[v] * weight[v]);
+        const double here =
+            fabs(error[k] * error_weights_at(I->weights, k)) + fabs(error[v] * error_weights_at(I->weights, v));
         if (here <= most) continue;
         most = isfinite(here) ? here : (double)INFINITY;
         worst = k / l->dim;

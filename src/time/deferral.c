@@ -31,7 +31,6 @@ struct deferral {
     nvector_deferral seen; /* by the space */
     stage_wave *wave;
     int n_stages; /* of its steps */
-    N_Vector weights;
     deferred_call calls[MOST_CALLS];
     int n_calls;
     bool is_done;          /* the calls have been taken as a wave */
@@ -139,7 +138,7 @@ static bool describe_sum(const deferral *d, int call, stage_sum *out, stage_prog
 /* The calls as a program: sum, derivative, sum, derivative, ..., sum, sum.  \return whether they are one */
 static bool describe(const deferral *d, stage_program *p)
 {
-    *p = (stage_program){.n_stages = d->n_calls / 2 - 1, .scale = d->scale};
+    *p = (stage_program){.n_stages = d->n_calls / 2 - 1, .weights = d->owner.weights, .scale = d->scale};
     for (int k = 0; k < d->n_calls; k++) {
         const bool is_stage = k < 2 * p->n_stages;
         if (is_sum(d, k) != (!is_stage || k % 2 == 0)) return false;
@@ -155,8 +154,7 @@ static bool describe(const deferral *d, stage_program *p)
 static bool run_wave(deferral *d)
 {
     stage_program p;
-    if (d->weights == NULL || d->n_calls % 2 != 0 || !describe(d, &p)) return false;
-    p.weights = nvector_values(d->weights);
+    if (d->n_calls % 2 != 0 || !describe(d, &p)) return false;
     nvector_set_use(end_of(d), NVECTOR_FREE);
     p.end = nvector_fresh(end_of(d));
     if (!stage_wave_run(d->wave, &p, &d->squares)) return false;
@@ -220,11 +218,10 @@ bool deferral_take_derivative(deferral *d, double t, N_Vector y, N_Vector f)
     return true;
 }
 
-static bool take_norm(void *self, N_Vector x, N_Vector weights, double *norm)
+static bool take_norm(void *self, N_Vector x, double *norm)
 {
     const deferral *d = self;
     if (!d->is_done || d->calls[d->n_calls - 1].result != x) return false;
-    if (nvector_values(weights) != nvector_values(d->weights)) return false;
     *norm = d->norm;
     return true;
 }
@@ -277,9 +274,4 @@ void deferral_free(deferral *d)
 const nvector_deferral *deferral_seen(const deferral *d)
 {
     return &d->seen;
-}
-
-void deferral_set_weights(deferral *d, N_Vector weights)
-{
-    d->weights = weights;
 }

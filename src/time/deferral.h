@@ -17,6 +17,7 @@ typedef int deferral_derivative(double t, N_Vector y, N_Vector f, void *context)
 typedef struct deferral_owner {
     const ode_problem *problem;
     nvector_space *space;                /* whose operations are deferred from now on */
+    const error_weights *weights;        /* of its norms */
     deferral_derivative *derivative;     /* of operations carried out one by one, and */
     void (*count)(int n, void *context); /* how many a wave has evaluated */
     void *context;
@@ -29,9 +30,6 @@ void deferral_free(deferral *d);
 
 /** What the space has to ask and to call, for who takes part in operations besides. */
 const nvector_deferral *deferral_seen(const deferral *d);
-
-/** The weights of the norm, the same for all steps. */
-void deferral_set_weights(deferral *d, N_Vector weights);
 
 /** Whether f = f(t, y) is deferred: it is for states that are due themselves. NULL defers nothing. */
 bool deferral_take_derivative(deferral *d, double t, N_Vector y, N_Vector f);

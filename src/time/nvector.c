@@ -262,7 +262,7 @@ static double scale_of(double size)
 
 typedef struct squares {
     const nvector_space *space;
-    const double *x, *w;
+    const double *x;
     double scale;
 } squares;
 
@@ -275,21 +275,21 @@ static void square_share(const void *context, int share, int thread)
     const dem_index n = team_share(s->shape.length, s->n_shares, share + 1) - first;
     (void)thread;
     s->sums[share] = (array_ops_sum){0};
-    s->shape.ops->square(&s->sums[share], p->x + first, p->w + first, p->scale, n);
+    error_weights_square(s->shape.weights, &s->sums[share], p->x + first, p->scale, first, n);
 }
 
 /* The sum of (scale x_k w_k)^2. It is one of integers: no order and no shares change it. */
-static array_ops_sum square(const nvector_space *s, const double *x, const double *w, double scale)
+static array_ops_sum square(const nvector_space *s, const double *x, double scale)
 {
     array_ops_sum sum = {0};
-    team_run(s->shape.team, s->n_shares, square_share, &(squares){s, x, w, scale});
+    team_run(s->shape.team, s->n_shares, square_share, &(squares){s, x, scale});
     for (int share = 0; share < s->n_shares; share++) array_ops_add(&sum, &s->sums[share]);
     return sum;
 }
 
-array_ops_sum nvector_squares(N_Vector x, N_Vector w, double scale)
+array_ops_sum nvector_squares(N_Vector x, double scale)
 {
-    return square(content_of(x)->space, nvector_values(x), nvector_values(w), scale);
+    return square(content_of(x)->space, nvector_values(x), scale);
 }
 
 /* The squares are added as integers in units of 2^-60, which hold for sizes up to 32 times a scale. */
@@ -306,18 +306,19 @@ bool nvector_norm_of_sum(const nvector_space *s, const array_ops_sum *sum, doubl
 
 /* sqrt(sum of (x_k w_k)^2/n), infinity if a term is not finite. The scale is guessed from a sample of terms, and taken
  * again from the largest square of the sum until both agree. The result is that of the scale of the largest term,
- * whatever the sample was. */
+ * whatever the sample was. ARKODE's vector of weights has no numbers: those of the space are meant. */
 static sunrealtype norm(N_Vector x, N_Vector w)
 {
     const nvector_space *s = content_of(x)->space;
     double largest = 0.0, result;
-    if (s->deferral != NULL && s->deferral->take_norm(s->deferral->self, x, w, &result)) return result;
-    const double *values = nvector_values(x), *weights = nvector_values(w);
+    (void)w;
+    if (s->deferral != NULL && s->deferral->take_norm(s->deferral->self, x, &result)) return result;
+    const double *values = nvector_values(x);
     for (dem_index k = 0; k < s->shape.length; k += s->shape.length / n_sampled + 1)
-        largest = fmax(largest, fabs(values[k] * weights[k]));
+        largest = fmax(largest, fabs(values[k] * error_weights_at(s->shape.weights, k)));
     double scale = scale_of(reduce_max(s->shape.ranks, largest));
     for (;;) {
-        const array_ops_sum sum = reduce_squares(s->shape.ranks, square(s, values, weights, scale));
+        const array_ops_sum sum = reduce_squares(s->shape.ranks, square(s, values, scale));
         if (nvector_norm_of_sum(s, &sum, &scale, &result)) return result;
     }
 }

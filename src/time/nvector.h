@@ -12,6 +12,7 @@
 #include "base/array_ops.h"
 #include "base/ranks.h"
 #include "base/team.h"
+#include "time/error_weights.h"
 
 typedef struct nvector_space nvector_space;
 
@@ -26,7 +27,7 @@ typedef struct nvector_deferral {
      *  together with earlier ones. Then *status is 0, or -1 if one of them has failed. */
     bool (*take_sum)(void *self, int n, const double *factor, N_Vector *x, N_Vector z, int *status);
     /** Asked for the norm of a vector: whether it is known without its numbers. */
-    bool (*take_norm)(void *self, N_Vector x, N_Vector weights, double *norm);
+    bool (*take_norm)(void *self, N_Vector x, double *norm);
     /** Called before a vector that is due is read, and before one that is not free is written. NULL where none is. */
     void (*before_read)(void *self);
     void (*before_write)(void *self);
@@ -34,9 +35,10 @@ typedef struct nvector_deferral {
 
 /** What the vectors of a space are like, and what they are computed with. */
 typedef struct nvector_shape {
-    const ranks *ranks; /* that have vectors like these, each of a part of the numbers */
-    dem_index length;   /* numbers of a vector */
-    dem_index n_whole;  /* of how many numbers a norm is the mean: `length` where there is one rank */
+    const ranks *ranks;           /* that have vectors like these, each of a part of the numbers */
+    dem_index length;             /* numbers of a vector */
+    dem_index n_whole;            /* of how many numbers a norm is the mean: `length` where there is one rank */
+    const error_weights *weights; /* of every norm, whatever vector ARKODE gives for them */
     const array_ops *ops;
     team *team;
 } nvector_shape;
@@ -57,8 +59,8 @@ nvector_use nvector_get_use(N_Vector v);
 /** z = sum of factor_k x_k, carried out at once.  \return -1 if there are more terms than there is room for */
 int nvector_combine(int n, const double *factor, N_Vector *x, N_Vector z);
 
-/** The sum of squares of x_k w_k on this rank, each multiplied by the scale before. */
-array_ops_sum nvector_squares(N_Vector x, N_Vector w, double scale);
+/** The sum of squares of numbers times their weights on this rank, each multiplied by the scale before. */
+array_ops_sum nvector_squares(N_Vector x, double scale);
 
 /** The norm of a vector from such a sum of all ranks: infinity if a term is not finite.
  *  \param scale  a power of 2 by which it was added up; another one is put there if the sum does not hold

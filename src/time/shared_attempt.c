@@ -76,8 +76,8 @@ static void add_squares(const shared_attempt *s, attempt_end *end)
 {
     const bool has_error = s->error != NULL && !deferral_has_squares(s->owner.deferral, s->scale[0], &end->error);
     if (has_error) make_up(s);
-    if (has_error) end->error = nvector_squares(s->error, s->owner.weights, s->scale[0]);
-    end->state = nvector_squares(s->last, s->owner.weights, s->scale[1]);
+    if (has_error) end->error = nvector_squares(s->error, s->scale[0]);
+    end->state = nvector_squares(s->last, s->scale[1]);
 }
 
 /* Finds the norms of all ranks.  \return whether the scales hold; else there are better ones */
@@ -163,10 +163,9 @@ static bool take_sum(void *self, int n, const double *factor, N_Vector *x, N_Vec
     return true;
 }
 
-static bool take_norm(void *self, N_Vector x, N_Vector weights, double *norm)
+static bool take_norm(void *self, N_Vector x, double *norm)
 {
     const shared_attempt *s = self;
-    (void)weights; /* there are no others */
     if (x == s->error) {
         *norm = s->norm[0];
         return true;

@@ -14,8 +14,8 @@ typedef struct shared_attempt_owner {
     attempt *attempt;
     const butcher_table *table;
     nvector_space *space;
-    deferral *deferral;       /* of stages that need nothing of other ranks; NULL: none are deferred */
-    N_Vector y0, f1, weights; /* the state from which the step goes; the derivative at its end, written; of the norm */
+    deferral *deferral; /* of stages that need nothing of other ranks; NULL: none are deferred */
+    N_Vector y0, f1;    /* the state from which the step goes; the derivative at its end, written */
 } shared_attempt_owner;
 
 typedef struct shared_attempt {

@@ -133,17 +133,15 @@ static void add_squares(wave_pass *p, dem_index b, bool of_velocities)
 {
     const stage_wave *w = p->wave;
     const stage_sum *s = &p->program->sums[w->n_stages + 1];
-    const array_ops *ops = w->problem->ops;
     const dem_index size = band_end(w, b) - band_begin(w, b);
-    const double *weights = p->program->weights + band_begin(w, b);
+    const dem_index begin = band_begin(w, b) + (of_velocities ? state_velocities(&w->problem->layout) : 0);
     const double *in[STAGE_WAVE_TERMS];
     double error[PIECE];
-    if (of_velocities) weights += state_velocities(&w->problem->layout);
     find_operands(p, s, b, of_velocities, in);
     for (dem_index k = 0; k < size; k += PIECE) {
         const dem_index n = k + PIECE < size ? PIECE : size - k;
-        ops->combine(error, s->n, s->factor, in, n);
-        ops->square(&p->squares, error, weights + k, p->program->scale, n);
+        w->problem->ops->combine(error, s->n, s->factor, in, n);
+        error_weights_square(p->program->weights, &p->squares, error, p->program->scale, begin + k, n);
         for (int q = 0; q < s->n; q++) in[q] += n;
     }
 }

@@ -7,6 +7,7 @@
 #define DEM_TIME_STAGE_WAVE_H
 
 #include "time/butcher.h"
+#include "time/error_weights.h"
 #include "time/ode_problem.h"
 
 enum {
@@ -31,7 +32,7 @@ typedef struct stage_program {
     double t[STAGE_WAVE_RATES];      /* at these times, s, */
     stage_sum sums[STAGE_WAVE_SUMS]; /* in these states; behind them come the end of the step and its error */
     double *end;                     /* is written, and is none of those given */
-    const double *weights;
+    const error_weights *weights;
     double scale; /* of the squares: those of scale times weight times error are summed up */
 } stage_program;
 

@@ -7,11 +7,12 @@
 
 #include "time/nvector.h"
 
-enum { n = 1003, n_vectors = 5 };
+enum { n_nodes = 251, n = 4 * n_nodes, n_vectors = 5 };
 
 typedef struct bench {
     SUNContext sundials;
     team *team;
+    error_weights *weights;
     nvector_space *space;
     N_Vector v[n_vectors];
 } bench;
@@ -19,6 +20,11 @@ typedef struct bench {
 static double number(int which, dem_index k)
 {
     return sin(1.0 + which + 0.37 * (double)k);
+}
+
+static double weight(dem_index k)
+{
+    return k < n / 2 ? 0.75 : 0.25;
 }
 
 static bench make_bench(int n_threads)
@@ -30,9 +36,18 @@ static bench make_bench(int n_threads)
     assert_int_equal(SUNContext_Create(NULL, &b.sundials), 0);
 #endif
     b.team = team_create(n_threads, 1);
-    b.space = nvector_space_create(
-        &(nvector_shape){.ranks = &ranks_alone, .length = n, .n_whole = n, .ops = &array_ops_portable, .team = b.team},
-        n_vectors - 1);
+    b.weights = error_weights_create(&(ode_problem){.layout = {.dim = 2, .n_nodes = n_nodes, .n_rows = n_nodes},
+                                                    .position_error = 1.0 / weight(0),
+                                                    .velocity_error = 1.0 / weight(n - 1),
+                                                    .ops = &array_ops_portable});
+    assert_non_null(b.weights);
+    b.space = nvector_space_create(&(nvector_shape){.ranks = &ranks_alone,
+                                                    .length = n,
+                                                    .n_whole = n,
+                                                    .weights = b.weights,
+                                                    .ops = &array_ops_portable,
+                                                    .team = b.team},
+                                   n_vectors - 1);
     assert_non_null(b.space);
     for (int p = 0; p < n_vectors; p++) {
         b.v[p] = p == 0 ? nvector_create(b.space, b.sundials) : N_VClone(b.v[0]);
@@ -47,6 +62,7 @@ static void free_bench(bench *b)
 {
     for (int p = 0; p < n_vectors; p++) N_VDestroy(b->v[p]);
     nvector_space_free(b->space);
+    error_weights_free(b->weights);
     team_destroy(b->team);
     (void)SUNContext_Free(&b->sundials);
 }
@@ -113,9 +129,9 @@ TEST(combinations_leave_out_zeros_and_may_go_where_an_operand_is)
     }
 }
 
-/* sqrt(sum of (x w)^2/n), within 1e-9: at the lower end of a range the largest number is 3e-5, and its square is
- * rounded to 2^-60; below 1e-3 that is 1e-6 of them. One number far above the others, where a sample does not see
- * it; and the same bits for any number of threads. */
+/* sqrt(sum of (x w)^2/n), whatever the vector of weights says, within 1e-9: at the lower end of a range the largest
+ * number is 3e-5, and its square is rounded to 2^-60; below 1e-3 that is 1e-6 of them. One number far above the others,
+ * where a sample does not see it; and the same bits for any number of threads. */
 TEST(norms_of_all_sizes_are_right)
 {
     for (double size = 1e-6; size < 1e201; size *= 1e3)
@@ -126,9 +142,9 @@ TEST(norms_of_all_sizes_are_right)
                 double *x = nvector_fresh(b.v[0]), sum = 0.0, largest = 0.0;
                 for (dem_index k = 0; k < n; k++) x[k] *= size;
                 if (peak) x[501] = 1e7 * size;
-                for (dem_index k = 0; k < n; k++) largest = fmax(largest, fabs(x[k] * number(1, k)));
+                for (dem_index k = 0; k < n; k++) largest = fmax(largest, fabs(x[k] * weight(k)));
                 for (dem_index k = 0; k < n; k++) {
-                    const double e = x[k] * number(1, k) / largest;
+                    const double e = x[k] * weight(k) / largest;
                     sum += e * e;
                 }
                 const double norm = N_VWrmsNorm(b.v[0], b.v[1]), expected = largest * sqrt(sum / n);
