@@ -7,7 +7,6 @@
 #include "model/model.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/reduce.h"
 #include "base/status.h"
@@ -155,13 +154,9 @@ static dem_status check_bodies(const dem_model *m)
 static dem_status fill_defaults(dem_lattice *l)
 {
     const dem_index n = l->n_nodes;
-    const size_t pairs = 2 * (size_t)n * sizeof(double);
     if (l->body == NULL) CHECK_MEMORY(l->body = lattice_zeros(n, sizeof *l->body));
     if (l->velocity == NULL) CHECK_MEMORY(l->velocity = lattice_zeros(2 * n, sizeof *l->velocity));
-    if (l->position == NULL) {
-        CHECK_MEMORY(l->position = malloc(pairs));
-        memcpy(l->position, l->x, pairs);
-    }
+    if (l->position == NULL) l->position = l->x; /* neither is changed */
     if (l->flags == NULL) {
         CHECK_MEMORY(l->flags = lattice_zeros(n, sizeof *l->flags));
         TRY(mesh_edges_contact_flags(l->flags, l));
@@ -307,6 +302,7 @@ dem_status dem_model_create(dem_model **out, const dem_lattice *lattice, const d
 void dem_model_destroy(dem_model *model)
 {
     if (model == NULL) return;
+    if (model->lattice.position == model->lattice.x) model->lattice.position = NULL; /* is freed once */
     dem_lattice_free(&model->lattice);
     csr_view_free(model->csr);
     springs_free(&model->springs);
