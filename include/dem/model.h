@@ -179,7 +179,7 @@ DEM_API dem_status dem_model_constants(const dem_model *model, dem_index body, d
 DEM_API double dem_model_mass(const dem_model *model);
 
 /** What each node has of the solid's rest volume, m^3: a third of its triangles' areas times their thickness; 0 where
- *  it is in no triangle. [n_nodes], a view. */
+ *  it is in no triangle. [n_nodes], a view, made at the first call; NULL without memory, and a dem_status_message(). */
 DEM_API const double *dem_model_volumes(const dem_model *model);
 
 /** Signed distance of a point to the nearest obstacle, m: > 0 in front, < 0 inside; infinity without obstacles. */

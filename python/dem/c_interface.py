@@ -1304,7 +1304,8 @@ FUNCTIONS: dict[str, tuple[Any, list[Any], str]] = {  # result, arguments, text
     "dem_model_volumes": (POINTER(c_double), [POINTER(dem_model)],
         """dem_model_volumes(model)
         What each node has of the solid's rest volume, m^3: a third of its triangles' areas times their thickness; 0
-        where it is in no triangle. [n_nodes], a view."""),
+        where it is in no triangle. [n_nodes], a view, made at the first call; NULL without memory, and a
+        dem_status_message()."""),
     "dem_model_gap": (c_double, [POINTER(dem_model), POINTER(c_double)],
         """dem_model_gap(model, x)
         Signed distance of a point to the nearest obstacle, m: > 0 in front, < 0 inside; infinity without obstacles.

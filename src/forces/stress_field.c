@@ -93,7 +93,7 @@ static void add_areas(const taking *t, dem_index i)
     const dem_model *m = t->s->model;
     double spread = 0.0;
     for (dem_index p = m->triangles.row[i]; p < m->triangles.row[i + 1]; p++)
-        spread += triangles_virial(&m->triangles, TRIANGLES_WHOLE, i, p, t->pass.x) / (3.0 * m->stress.volume[i]);
+        spread += triangles_virial(&m->triangles, TRIANGLES_WHOLE, i, p, t->pass.x) / (3.0 * m->stress.rows->volume[i]);
     t->pass.stress[3 * i] += spread;
     t->pass.stress[3 * i + 1] += spread;
 }

@@ -93,7 +93,7 @@ static dem_status cut_stress(dem_model *m, const stress_map *around, const dem_i
     stress_rows *to = m->stress.rows;
     n = 0;
     for (dem_index i = 0; i < d->n_nodes; i++) {
-        m->stress.volume[i] = around->volume[place[i]];
+        to->volume[i] = from->volume[place[i]];
         for (dem_index p = from->row[place[i]]; !d->is_ghost[i] && p < from->row[place[i] + 1]; p++) {
             to->spring[n] = from->spring[p];
             to->share[n++] = from->share[p];

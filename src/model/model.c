@@ -385,7 +385,7 @@ double dem_model_mass(const dem_model *model)
 
 const double *dem_model_volumes(const dem_model *model)
 {
-    return model->stress.volume;
+    return stress_volumes(&model->stress);
 }
 
 /* At t = 0; free ends are not lengthened, and no obstacle is left out. */

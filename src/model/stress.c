@@ -86,11 +86,24 @@ static dem_status allocate_shares(stress_rows *r, dem_index n_nodes, dem_index n
     return DEM_OK;
 }
 
+/* The volume of a node is a third of that of its triangles at rest. */
+static dem_status make_volumes(void *self)
+{
+    stress_rows *r = self;
+    const dem_lattice *l = r->lattice;
+    r->volume = lattice_zeros(l->n_nodes, sizeof *r->volume);
+    CHECK(r->volume, DEM_ERROR_MEMORY, "out of memory for the volumes of %lld nodes", (long long)l->n_nodes);
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++)
+        r->volume[l->triangles[k]] += spring_share_volume(l, k / 3) / 3.0;
+    return DEM_OK;
+}
+
 /* Count, lay out the rows, write. All sums that follow are in the order of these rows. */
 static dem_status fill(draft *d)
 {
     stress_rows *r = d->rows;
     const dem_lattice *l = r->lattice;
+    TRY(on_demand_make(&r->weighed, make_volumes, r));
     TRY(spring_holders_create(&d->holders, l, r->springs));
     d->next = lattice_zeros(l->n_nodes, sizeof *d->next);
     d->last = lattice_zeros(l->n_nodes, sizeof *d->last);
@@ -139,57 +152,47 @@ void stress_forget(const stress_map *map)
     map->rows->made.is_made = false;
 }
 
-/* The volume of a node is a third of that of its triangles at rest. */
-static dem_status find_volumes(stress_map *map, const dem_lattice *l)
+const double *stress_volumes(const stress_map *map)
 {
-    map->volume = lattice_zeros(l->n_nodes, sizeof *map->volume);
-    CHECK(map->volume, DEM_ERROR_MEMORY, "out of memory for the volumes of %lld nodes", (long long)l->n_nodes);
-    for (dem_index k = 0; k < 3 * l->n_triangles; k++)
-        map->volume[l->triangles[k]] += spring_share_volume(l, k / 3) / 3.0;
-    return DEM_OK;
+    return on_demand_make(&map->rows->weighed, make_volumes, map->rows) == DEM_OK ? map->rows->volume : NULL;
 }
 
-static dem_status create_rows(stress_map *map, const dem_lattice *lattice, const springs *s)
+static dem_status create_locks(stress_rows *r)
 {
-    stress_rows *r = calloc(1, sizeof *r);
-    CHECK_MEMORY(r);
-    r->lattice = lattice;
-    r->springs = s;
-    r->volume = map->volume;
-    const dem_status status = on_demand_create(&r->made);
-    if (status == DEM_OK)
-        map->rows = r;
-    else
-        free(r);
+    TRY(on_demand_create(&r->made));
+    const dem_status status = on_demand_create(&r->weighed);
+    if (status != DEM_OK) on_demand_destroy(&r->made);
     return status;
 }
 
 dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const springs *s, const couplings *c)
 {
-    stress_map map = {.couplings = c};
-    dem_status status = find_volumes(&map, lattice);
-    if (status == DEM_OK) status = create_rows(&map, lattice, s);
+    stress_rows *r = calloc(1, sizeof *r);
+    CHECK_MEMORY(r);
+    r->lattice = lattice;
+    r->springs = s;
+    const dem_status status = create_locks(r);
     if (status == DEM_OK)
-        *out = map;
+        *out = (stress_map){.rows = r, .couplings = c};
     else
-        stress_free(&map);
+        free(r);
     return status;
 }
 
 static dem_status allocate(stress_map *map, dem_index n_nodes, dem_index n_shares)
 {
-    map->volume = lattice_zeros(n_nodes, sizeof *map->volume);
-    map->rows->row = lattice_zeros(n_nodes + 1, sizeof *map->rows->row);
-    CHECK(map->volume && map->rows->row, DEM_ERROR_MEMORY, "out of memory for the stresses of %lld nodes",
-          (long long)n_nodes);
-    return allocate_shares(map->rows, n_nodes, n_shares);
+    stress_rows *r = map->rows;
+    r->volume = lattice_zeros(n_nodes, sizeof *r->volume);
+    r->row = lattice_zeros(n_nodes + 1, sizeof *r->row);
+    CHECK(r->volume && r->row, DEM_ERROR_MEMORY, "out of memory for the stresses of %lld nodes", (long long)n_nodes);
+    return allocate_shares(r, n_nodes, n_shares);
 }
 
 dem_status stress_create(stress_map *out, dem_index n_nodes, dem_index n_shares, const couplings *c)
 {
-    stress_map map = {.couplings = c};
-    TRY(create_rows(&map, NULL, NULL));
-    map.rows->made.is_made = true;
+    stress_map map;
+    TRY(stress_compile(&map, NULL, NULL, c));
+    map.rows->made.is_made = map.rows->weighed.is_made = true;
     const dem_status status = allocate(&map, n_nodes, n_shares);
     if (status == DEM_OK)
         *out = map;
@@ -200,10 +203,11 @@ dem_status stress_create(stress_map *out, dem_index n_nodes, dem_index n_shares,
 
 void stress_free(stress_map *map)
 {
-    free(map->volume);
     if (map->rows != NULL) {
         on_demand_destroy(&map->rows->made);
+        on_demand_destroy(&map->rows->weighed);
         free_arrays(map->rows);
+        free(map->rows->volume);
         free(map->rows);
     }
     *map = (stress_map){0};
@@ -218,7 +222,7 @@ static void add_couplings(const stress_map *map, dem_index i, const double *x, d
     for (dem_index p = c->row[i]; p < c->row[i + 1]; p++) {
         double virial[3];
         couplings_virial(c, p, x, virial);
-        for (int k = 0; k < 3; k++) stress[k] += virial[k] / (3.0 * map->volume[i]);
+        for (int k = 0; k < 3; k++) stress[k] += virial[k] / (3.0 * map->rows->volume[i]);
     }
 }
 
@@ -231,7 +235,7 @@ void stress_of_node(const stress_map *map, const dem_lattice *lattice, const tri
     const dem_index first = r->row[i], n = r->row[i + 1] - first;
     stress[0] = stress[1] = stress[2] = 0.0;
     springs_add_virials(lattice, n, r->spring + first, r->share + first, x, stress);
-    const double spread = triangles_node_virial(t, i, x, 3.0 * map->volume[i]); /* the same in all directions */
+    const double spread = triangles_node_virial(t, i, x, 3.0 * r->volume[i]); /* the same in all directions */
     stress[0] += spread;
     stress[1] += spread;
     if (map->couplings->n > 0) add_couplings(map, i, x, stress);

@@ -10,19 +10,18 @@
 #include "elastic/springs.h"
 #include "elastic/triangles.h"
 
-/** Which springs make up the stress of which node. The rows are made when stresses are first asked for. */
+/** Which springs make up the stress of which node. Rows and volumes are made when they are first asked for. */
 typedef struct stress_rows {
-    on_demand made;
-    const dem_lattice *lattice; /* borrowed, as springs and volumes are */
+    on_demand made, weighed;    /* rows, for which there have to be volumes; volumes */
+    const dem_lattice *lattice; /* borrowed, as springs are */
     const springs *springs;
-    const double *volume;
+    double *volume;  /* [n_nodes] m^3, a third of the triangles at rest; 0 of a node in no triangle, without stress */
     int32_t *row;    /* [n_nodes + 1] */
     int32_t *spring; /* slots row[i] .. row[i + 1] - 1: springs of the lattice */
     double *share;   /* of their r x f, over the node's volume, 1/m^3 */
 } stress_rows;
 
 typedef struct stress_map {
-    double *volume; /* [n_nodes] m^3, a third of the triangles at rest; 0 of a node in no triangle, without stress */
     stress_rows *rows;
     const couplings *couplings; /* borrowed */
 } stress_map;
@@ -42,6 +41,8 @@ dem_status stress_prepare(const stress_map *map);
 /** Frees the rows until they are asked for again; while nobody else looks at them. Not of a map that was created with
  *  room for them. */
 void stress_forget(const stress_map *map);
+/** The volumes alone, made likewise; NULL without memory. */
+const double *stress_volumes(const stress_map *map);
 
 /** Stress of node i at positions x [n][2], Pa: xx, yy, xy, by a map that is prepared.
  *  \param lattice, t  from which the map was compiled */

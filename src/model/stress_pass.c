@@ -67,7 +67,7 @@ void STRESS_PASS_CORNERS(const stress_pass *p, dem_index first, dem_index last)
     const couplings *c = p->map->couplings;
     const four *virial = (const four *)p->coupled;
     for (dem_index i = first; i < last; i++) {
-        const double thrice = 3.0 * p->map->volume[i];
+        const double thrice = 3.0 * p->map->rows->volume[i];
         four sum = {p->stress[3 * i], p->stress[3 * i + 1], p->stress[3 * i + 2], 0.0};
         for (dem_index k = c->row[i]; k < c->row[i + 1]; k++) sum += virial[c->slot[k] / 3] / thrice;
         for (int q = 0; q < 3; q++) p->stress[3 * i + q] = sum[q];
@@ -82,7 +82,7 @@ INLINE lanes spread_of(const stress_pass *p, dem_index block, unsigned *guarded)
     const layout_entry *entries = l->corners.entries.items;
     const double *here = p->x + 2 * LAYOUT_LANES * block;
     const pairs x = pairs_load(here);
-    const lanes volume = pairs_dot(pairs_spread(p->map->volume + LAYOUT_LANES * block), pairs_both(1.0, 0.0));
+    const lanes volume = pairs_dot(pairs_spread(p->map->rows->volume + LAYOUT_LANES * block), pairs_both(1.0, 0.0));
     const lanes thrice = lanes_mul(lanes_all(3.0), volume);
     lanes sum = lanes_all(0.0);
     for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {

@@ -112,6 +112,20 @@ TEST(volumes_add_up_to_that_of_the_triangles)
     assert_close(corner, triangle / 3.0, 1e-12 * corner);
 }
 
+/* Rows and volumes take memory that runs without stresses have no use for. */
+TEST(volumes_and_rows_are_made_when_they_are_asked_for)
+{
+    CLEANUP(free_model) dem_model *model = make_holed(0.0, 1.0 / 3.0);
+    const stress_rows *r = model->stress.rows;
+    assert_null(r->volume);
+    const double *volumes = dem_model_volumes(model);
+    assert_ptr_equal(volumes, r->volume);
+    assert_null(r->row);
+    assert_ok(stress_prepare(&model->stress));
+    assert_non_null(r->row);
+    assert_ptr_equal(dem_model_volumes(model), volumes);
+}
+
 /* Shares of a spring, times the volumes: each is given once, whole. */
 TEST(every_spring_is_shared_out_whole)
 {
@@ -122,7 +136,7 @@ TEST(every_spring_is_shared_out_whole)
     CLEANUP(free_memory) double *given = calloc((size_t)model->lattice.n_springs, sizeof *given);
     assert_non_null(given);
     for (dem_index i = 0; i < model->lattice.n_nodes; i++)
-        for (dem_index p = r->row[i]; p < r->row[i + 1]; p++) given[r->spring[p]] += r->share[p] * map->volume[i];
+        for (dem_index p = r->row[i]; p < r->row[i + 1]; p++) given[r->spring[p]] += r->share[p] * r->volume[i];
     for (dem_index k = 0; k < model->lattice.n_springs; k++) assert_close(given[k], 1.0, 1e-14);
 }
 
