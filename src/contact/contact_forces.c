@@ -114,8 +114,8 @@ static void delist_group(contact_forces *r, dem_index group)
 /* Sets the group at the nodes of a candidate. */
 static void set_at_nodes(contact_forces *r, dem_index k, dem_index group)
 {
-    r->at_node[r->candidates[k].node] = group;
-    if (candidate_is_edge(&r->candidates[k])) r->at_node[r->candidates[k].other] = group;
+    r->at_node[r->candidates[k].node] = (int32_t)group;
+    if (candidate_is_edge(&r->candidates[k])) r->at_node[r->candidates[k].other] = (int32_t)group;
 }
 
 /* Adds a candidate to the n whose groups are to be found, unless it is there or has no closed contact. */
@@ -524,7 +524,7 @@ dem_status contact_forces_create(contact_forces *out, const contact_scene *scene
     r.force = calloc(n, sizeof *r.force);
     r.root = malloc(n_nodes * sizeof *r.root);
     r.first = malloc(n_nodes * sizeof *r.first);
-    r.a = calloc(2 * n_nodes, sizeof *r.a);
+    r.a = malloc(2 * n_nodes * sizeof *r.a); /* not cleared: of a large body few pages are ever touched */
     r.rows = malloc(4 * n * sizeof *r.rows);
     const bool grouped = r.groups && r.group && r.next && r.at_node && r.members;
     if (!(grouped && r.force && r.root && r.first && r.a && r.rows)) {

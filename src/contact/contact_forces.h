@@ -33,14 +33,15 @@ typedef struct contact_forces {
     dem_index *groups;         /* [n_groups] by their first candidates, in the order of candidate_is_before(); from it
                                   next[] leads along the boundary through all of a group, which are closed */
     dem_index *group, *next;   /* [n_candidates] of a closed candidate, else -1; the next of its group, or -1 */
-    dem_index *at_node;        /* [n_nodes] the group that has closed contacts at a node, or -1 */
+    int32_t *at_node;          /* [n_nodes] the group that has closed contacts at a node, or -1 */
     dem_index *members;        /* [2 n_candidates] scratch: candidates whose groups are found again, */
     group_walk walk;           /* and their order */
     contact_force (*force)[2]; /* [n_candidates] of each closed contact, as last solved for */
     dem_index *root, *first;   /* [n_nodes] scratch: union-find; first row that touches the node */
-    double *a;                 /* [n_nodes][2] accelerations of the nodes of the group last solved for, or its shifts */
-    contact_equation *rows;    /* [4 n_candidates] scratch */
-    double *band;              /* [capacity] scratch */
+    double *a;              /* [n_nodes][2] accelerations of the nodes of the group last solved for, or its shifts; of
+                                  others not set */
+    contact_equation *rows; /* [4 n_candidates] scratch */
+    double *band;           /* [capacity] scratch */
     size_t capacity;
 } contact_forces;
 

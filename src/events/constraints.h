@@ -30,8 +30,8 @@ typedef struct constraint_free {
 typedef struct constraints {
     void *self;
     /* Addresses of two arrays, which may be allocated again: */
-    dem_index *const *group_at; /* [n_nodes] the group that a node is in, or -1 */
-    double *const *a;           /* [n_nodes][dim] m/s^2, of the nodes of a group as solved for last */
+    int32_t *const *group_at; /* [n_nodes] the group that a node is in, or -1 */
+    double *const *a;         /* [n_nodes][dim] m/s^2, of the nodes of a group as solved for last */
     /** Calls `add` for the nodes of a group, for some more than once.  \return what it returns, if not DEM_OK */
     dem_status (*each_node)(const void *self, dem_index group, dem_status (*add)(void *context, dem_index node),
                             void *context);

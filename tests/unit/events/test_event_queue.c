@@ -488,7 +488,7 @@ TEST(the_end_of_a_step_in_three_dimensions_has_its_own_derivative)
 
 /* Node 1 is held where it is, and is put elsewhere at the end of the step. */
 typedef struct hold {
-    dem_index of_nodes[CHAIN_NODES], *group_at;
+    int32_t of_nodes[CHAIN_NODES], *group_at;
     double of_held[3 * CHAIN_NODES], *a;
     const state_layout *layout;
 } hold;

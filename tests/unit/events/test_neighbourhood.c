@@ -185,7 +185,7 @@ TEST(rings_that_are_kept_do_not_hide_a_closed_contact)
 /* Ties nodes 8 and 9 of a chain together: both accelerate as their velocities are. */
 typedef struct tie {
     chain *of;
-    dem_index group_at[CHAIN_NODES], *groups;
+    int32_t group_at[CHAIN_NODES], *groups;
     double a[STATE_DIM_MOST * CHAIN_NODES], *accelerations;
 } tie;
 
