@@ -34,9 +34,16 @@ static void list_nodes(overlap *o, const mesh_boundary *boundary)
     o->n = sorted_make(o->nodes, 2 * boundary->n);
 }
 
+/* One for four triangles: each of these then looks into three cells in the mean, into six if there were as many as
+ * triangles, and most of them are empty. */
+static dem_index count_cells(dem_index n_triangles)
+{
+    return (n_triangles + 3) / 4;
+}
+
 static dem_status create(overlap *o, const mesh_boundary *boundary)
 {
-    o->n_cells = boundary->lattice->n_triangles;
+    o->n_cells = count_cells(boundary->lattice->n_triangles);
     if (o->n_cells == 0) return DEM_OK;
     TRY(overlap_reserve(o, boundary));
     o->first = malloc((size_t)o->n_cells * sizeof *o->first);
@@ -84,8 +91,8 @@ static dem_index row_of(const overlap *o, double y)
     return cell_of(y, o->low, o->cells_per_length, o->rows);
 }
 
-/* About as many cells as there are triangles, over all boundary nodes, and square: then a triangle reaches into few of
- * them. The list of a cell has its nodes in ascending order, since they are entered backwards. */
+/* Cells over all boundary nodes, about square. The list of a cell has its nodes in ascending order, since they are
+ * entered backwards. */
 static void fill_cells(overlap *o, const double *x)
 {
     double right = -INFINITY, high = -INFINITY;
@@ -170,13 +177,14 @@ void overlap_break(overlap *o, const mesh_boundary *boundary, const unsigned cha
     o->broken = broken;
 }
 
-/* Cells, for which there is room, are as many as triangles that are whole. */
+/* There is room for the cells, as triangles that are whole get fewer. */
 static void renew(overlap *o)
 {
     const dem_lattice *l = o->boundary->lattice;
     list_nodes(o, o->boundary);
-    o->n_cells = 0;
-    for (dem_index t = 0; t < l->n_triangles; t++) o->n_cells += o->broken == NULL || !o->broken[t];
+    dem_index n_whole = 0;
+    for (dem_index t = 0; t < l->n_triangles; t++) n_whole += o->broken == NULL || !o->broken[t];
+    o->n_cells = count_cells(n_whole);
     o->boundary = NULL;
 }
 
