@@ -9,6 +9,7 @@
 
 #include "base/aligned.h"
 #include "base/checkpoint_entries.h"
+#include "base/freed_memory.h"
 #include "base/reduce.h"
 #include "base/status.h"
 #include "contact/contact_constraints.h"
@@ -225,6 +226,7 @@ static dem_status create(dem_simulation **out, const dem_model *model, const dem
           out == NULL ? "out" : (model == NULL ? "model" : "options"));
     dem_options own;
     TRY(reduce_status(model->ranks, options_read(&own, options), 0.0));
+    freed_memory_return(model->lattice.n_nodes);
     dem_simulation *s = calloc(1, sizeof *s);
     CHECK_MEMORY(s);
     s->model = model;
@@ -233,6 +235,7 @@ static dem_status create(dem_simulation **out, const dem_model *model, const dem
                                 model->obstacles.bounds.speed > 0.0);
     dem_status status = reduce_status(s->model->ranks, set_up(s), 0.0);
     if (status == DEM_OK && resumes) status = resume(s, checkpoint);
+    freed_memory_return(model->lattice.n_nodes);
     if (status == DEM_OK)
         *out = s;
     else
