@@ -114,7 +114,8 @@ DEM_API void dem_model_destroy(dem_model *model);
  *  \return DEM_ERROR_MEMORY */
 DEM_API dem_status dem_model_csr(const dem_model *model, dem_csr *out);
 
-/** The lattice as the model holds it; a view, not to be freed or changed. */
+/** The lattice as the model holds it; a view, not to be freed or changed. `position` is x itself where the model was
+ *  given none. */
 DEM_API const dem_lattice *dem_model_lattice(const dem_model *model);
 
 /** An obstacle as the model holds it; a view.

@@ -1260,7 +1260,8 @@ FUNCTIONS: dict[str, tuple[Any, list[Any], str]] = {  # result, arguments, text
         Returns DEM_ERROR_MEMORY"""),
     "dem_model_lattice": (POINTER(dem_lattice), [POINTER(dem_model)],
         """dem_model_lattice(model)
-        The lattice as the model holds it; a view, not to be freed or changed."""),
+        The lattice as the model holds it; a view, not to be freed or changed. `position` is x itself where the model
+        was given none."""),
     "dem_model_obstacle": (POINTER(dem_obstacle), [POINTER(dem_model), c_int64],
         """dem_model_obstacle(model, obstacle)
         An obstacle as the model holds it; a view.
