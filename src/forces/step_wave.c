@@ -178,6 +178,7 @@ static void take_blocks(wave_pass *p, int step, dem_index to)
                           .v = s->v1,
                           .a = p->steps->a[step],
                           .guarded = k->guarded,
+                          .looks_at_lowest = !l->stiff,
                           .fused_step = s,
                           .drift_end = drift_end(p, step)};
     if (!blocks.goes_on) begin_step(p, step);
