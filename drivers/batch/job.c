@@ -15,6 +15,7 @@
 #include "deck.h"
 #include "estimate.h"
 #include "lock.h"
+#include "looks.h"
 #include "output.h"
 #include "preview.h"
 #include "rank_group.h"
@@ -62,17 +63,22 @@ static dem_status write_provenance(const job *j)
 {
     const deck *d = &j->deck;
     char versions[256], problem[OUTPUT_HASH], hash[OUTPUT_HASH], start[32], t_end[DECIMAL_SIZE];
+    char history_interval[DECIMAL_SIZE], peak_every[DECIMAL_SIZE];
     struct tm utc;
     preview_versions(versions, sizeof versions);
     output_print_hash(problem, d->hash);
     output_print_hash(hash, d->run_hash);
     decimal_print(t_end, d->t_end);
+    decimal_print(history_interval, d->history_interval);
+    decimal_print(peak_every, (double)d->peak_every);
     (void)strftime(start, sizeof start, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&j->start, &utc));
     const char *const provenance[][2] = {{"versions", j->source.lineage != NULL ? j->source.lineage : versions},
                                          {"kernel", dem_kernel_name(ask_options(j->simulation).kernel)},
                                          {"problem", problem},
                                          {"run", hash},
                                          {"t_end", t_end},
+                                         {"history_interval", history_interval},
+                                         {"peak_every", peak_every},
                                          {"start", start},
                                          {"deck", d->source},
                                          {"resolved", d->echo},
@@ -128,6 +134,7 @@ static dem_status share(const job *j, const dem_checkpoint *checkpoint)
 static dem_status simulate(job *j)
 {
     const dem_status status = dem_simulation_create(&j->simulation, j->model, &j->options);
+    if (status == DEM_OK) looks_settle(&j->deck, j->simulation);
     return status == DEM_OK ? share(j, NULL) : status;
 }
 

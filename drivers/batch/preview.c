@@ -393,6 +393,23 @@ static void print_output(FILE *out, const char *path, const estimate *e)
                   path != NULL ? ": " : "", e->frames, e->frames == 1.0 ? "" : "s", 1e-6 * e->output);
 }
 
+/* Rows that a run does not have, though its deck does not say so, are in the short log too. */
+static void print_looks(const run_log *log, const deck *d)
+{
+    const schema_instance *output = schema_get(&d->groups, "output", 0);
+    const bool left_out = d->history_interval > 0.0 && !schema_given(output, "history_interval");
+    if (!log->verbose && !left_out) return;
+    if (d->history_interval > 0.0)
+        (void)fprintf(log->out, "looks      rows of /history %.4g s apart, for peaks ", d->history_interval);
+    else
+        (void)fprintf(log->out, "looks      a row of /history each step, for peaks ");
+    if (d->peak_every > 0)
+        (void)fprintf(log->out, "every %lld steps", (long long)d->peak_every);
+    else
+        (void)fprintf(log->out, "never");
+    (void)fprintf(log->out, "%s\n", left_out ? ", by size; 'history_interval' and 'peak_every' in &output set it" : "");
+}
+
 /* All that is set up by now: a run takes no more, but for what HDF5 buffers. */
 static void print_memory(FILE *out, const dem_simulation *simulation)
 {
@@ -521,5 +538,6 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
     doubts_of_overlap(log, simulation);
     doubts_of_pressing(log, simulation);
     if (log->verbose) print_details(log->out, d, simulation);
+    print_looks(log, d);
     print_output(log->out, output, &needed);
 }

@@ -342,6 +342,8 @@ static void write_run(json *j, const result *r)
     write_loads(j, r->simulation);
     write_rigid(j, dem_model_lattice(dem_simulation_model(r->simulation)));
     write_overlap(j, r->simulation);
+    json_real(j, "history_interval", r->read->history_interval);
+    json_integer(j, "peak_every", r->read->peak_every);
     json_real(j, "formula_6", r->report->so_far.step_report.largest);
     json_real(j, "formula_6_t", r->report->so_far.step_report.t);
     if (r->read->residual > 0.0) json_real(j, "residual", r->rest->reached);

@@ -195,14 +195,14 @@ static bool set_scalars(deck *d, const schema_deck *groups)
     d->closure = schema_real(output, "closure");
     d->stop_at_overlap = strcmp(schema_text(schema_get(groups, "contact", 0), "overlap"), "stop") == 0;
     d->frame_interval = schema_real(output, "frame_interval");
-    d->history_interval = schema_real(output, "history_interval");
+    d->history_interval = schema_given(output, "history_interval") ? schema_real(output, "history_interval") : -1.0;
     d->double_precision = strcmp(schema_text(output, "precision"), "double") == 0;
     d->deflate = (int)schema_real(output, "deflate");
     d->events = schema_real(output, "events") != 0.0;
     d->breaks = schema_real(output, "breaks") != 0.0;
     d->fragments = schema_real(output, "fragments") != 0.0;
     d->fields = fields_of(schema_value_of(output, "fields"));
-    d->peak_every = (dem_index)schema_real(output, "peak_every");
+    d->peak_every = schema_given(output, "peak_every") ? (dem_index)schema_real(output, "peak_every") : -1;
     d->most_stressed = (dem_index)schema_real(output, "most_stressed");
     d->measure = schema_real(output, "measure") != 0.0;
     d->title = strdup(schema_text(run, "title"));

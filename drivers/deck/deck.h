@@ -30,10 +30,10 @@ typedef struct deck {
     double closure;          /* share of the energy from which on the log warns */
     dem_options options;     /* 0, of the window < 0, where the library is to choose; with its arrays once built */
     double frame_interval;   /* s */
-    double history_interval; /* s between rows of the history, at least; 0: every step has one */
+    double history_interval; /* s between rows of the history, at least; 0: every step has one; < 0: looks.h chooses */
     int double_precision, deflate, events, breaks, fragments;
     uint32_t fields;         /* DEM_FIELD_... */
-    dem_index peak_every;    /* accepted steps between looks at peaks; 0: none */
+    dem_index peak_every;    /* accepted steps between looks at peaks; 0: none; < 0: looks.h chooses */
     dem_index most_stressed; /* that are listed */
     bool measure;            /* constants and frequencies for the log */
     /* What deck_build() makes. */

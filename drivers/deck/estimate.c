@@ -10,6 +10,7 @@
 #include "material.h"
 #include "ask.h"
 #include "body_outline.h"
+#include "looks.h"
 
 static const double pi = 3.14159265358979323846, sqrt3 = 1.73205080756887729353;
 
@@ -195,11 +196,13 @@ static double table_bytes(double rows, double width)
 }
 
 /* Of the history and the probes, in numbers a row. */
-static double tables_bytes(const deck *d, const contents *c, double steps)
+static double tables_bytes(const deck *d, const contents *c, double step, double steps)
 {
     static const double of_probe[] = {[DEM_PROBE_NODE] = 9.0, [DEM_PROBE_SPRING] = 3.0, [DEM_PROBE_GAUGE] = 3.0};
     const double duration = estimate_duration(d);
-    const double rows = d->history_interval > 0.0 ? fmin(steps, duration / d->history_interval + 2.0) : steps;
+    const bool given = d->history_interval >= 0.0;
+    const double interval = given ? d->history_interval : looks_row_interval(d->options.method, c->nodes, step);
+    const double rows = interval > 0.0 ? fmin(steps, duration / interval + 2.0) : steps;
     double bytes = table_bytes(rows, 35.0 + 5.0 * c->bodies + 9.0 * c->obstacles + 4.0 * c->boundaries);
     for (dem_index k = 0; k < d->n_probes; k++)
         bytes += table_bytes(steps / (double)d->probes[k].every, of_probe[d->probes[k].kind]);
@@ -213,7 +216,7 @@ static void settle(estimate *e, const deck *d, const contents *c, double duratio
     e->memory = fmax(e->memory, c->nodes * (d->options.method == DEM_METHOD_VERLET ? of_verlet : of_pairs));
     e->steps = ceil(duration / e->step);
     e->frames = floor(duration / d->frame_interval * (1.0 + 1e-9)) + 1.0;
-    e->output = e->frames * frame_bytes(d, c) + tables_bytes(d, c, e->steps);
+    e->output = e->frames * frame_bytes(d, c) + tables_bytes(d, c, e->step, e->steps);
 }
 
 /* ---- all of it ---- */

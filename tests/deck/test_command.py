@@ -200,7 +200,7 @@ class Check(Case):
         self.assertEqual([line.split()[0] for line in lines],
                          ["dem", "deck", "lattice", "mass", "contact", "surfaces", "constants", "frequency", "time", "warning",
                           "impacts", "scales", "method", "stability", "kernel", "formula"] + ["memory"] * TELLS_MEMORY +
-                         ["output"])
+                         ["looks", "output"])
         self.assertEqual(lines[0] + "\n", self.call(0, "--version"))
         self.assertRegex(lines[1], r"^deck       deck\.nml: Rubber rectangle .*, problem [0-9a-f]{16}$")
         nodes, springs, triangles, bodies, mass, share = numbers(

@@ -53,6 +53,15 @@ BRITTLE = """
 &solver checkpoint_steps = 40 /
 &output name = 'a', frame_interval = 5e-5, precision = 'double', events = .true. /
 """
+# Some 5,600 nodes, of which not every step has a row.
+LARGE = """
+&run t_end = 4e-3 /
+&material youngs_modulus = 1e6, density = 1000 /
+&body shape = 'rectangle', size = 0.2, 0.2, spacing = 2.9e-3, velocity = 0, -5, clearance = 1e-3 /
+&obstacle points = -1, 0, 1, 0 /
+&solver method = 'verlet', checkpoint_steps = 100 /
+&output name = 'a', frame_interval = 1 /
+"""
 FILES = {"a.vtkhdf", "a.obstacle.vtkhdf", "a.body.vtkhdf", "a.json", "a.checkpoint"}
 WAY_OUT = "move it away, change 'name' in &output, or use --overwrite"
 OFTEN = ("--checkpoint-interval", "1e-9")  # every checkpoint goes to disk
@@ -170,6 +179,30 @@ class Cuts(Case):
             self.assertGreater(len(every), 2 * len(t))
             elastic = dict(zip(every, all_rows["history/elastic"]))
             self.assertEqual(list(file["history/elastic"]), [elastic[instant] for instant in t])
+
+    def test_a_large_body_has_rows_by_its_size(self):
+        self.put(LARGE)
+        self.assertRegex(self.call(0, outdir="whole"), "\nlooks      rows of /history .* s apart, for peaks every 256 steps")
+        self.call(0, "--set", "run.t_end=1.3e-3", outdir="longer")
+        self.call(0, outdir="longer")
+        self.expect_same("longer")
+        self.assertGreater(self.go_on("cut", *AT_ONCE), 5)
+        self.expect_same("cut")
+        self.assertNotIn("\nlooks ", self.call(0, "--set", "output.history_interval=0", outdir="dense"))
+        dense, whole = self.result("dense"), self.result("whole")
+        self.assertEqual((dense["history_interval"], dense["peak_every"], whole["peak_every"]), (0, 256, 256))
+        self.assertEqual(dense["rebound"], whole["rebound"])
+        if compare is None:
+            return
+        with h5py.File(self.folder / "dense/a.vtkhdf") as all_rows, h5py.File(self.folder / "whole/a.vtkhdf") as file:
+            every, t, h = list(all_rows["history/t"]), list(file["history/t"]), file["history/h"][-1]
+            self.assertAlmostEqual(whole["history_interval"], 64 * h, delta=1e-9 * h)
+            self.assertEqual(float(file["provenance/history_interval"].asstr()[()]), whole["history_interval"])
+            self.assertEqual(int(file["provenance/peak_every"].asstr()[()]), 256)
+            due = [every[0]] + [b for a, b in zip(every, every[1:])
+                                if int(b / whole["history_interval"]) > int(a / whole["history_interval"])]
+            self.assertEqual(t, due)
+            self.assertGreater(len(every), 60 * (len(t) - 1))
 
     def test_a_run_to_rest(self):
         self.put(REST)

@@ -40,6 +40,15 @@ PLATE = """
 &solver method = 'verlet', checkpoint_steps = 50 /
 &output name = 'free', frame_interval = 1 /
 """
+# So many nodes that not every step has a row.
+WITH_RULE = """
+&run t_end = 4e-3 /
+&material youngs_modulus = 1e6, density = 1000 /
+&body shape = 'rectangle', size = 0.2, 0.2, spacing = 2.9e-3, velocity = 0, -5, spin = 20 /
+&contact bodies = 'none' /
+&solver method = 'verlet', checkpoint_steps = 100 /
+&output name = 'free', frame_interval = 1 /
+"""
 # A rigid hammer on a guide hits a ring on a floor, and a disc hits it from the side: with friction of all with all.
 TOUCHING = """
 &run t_end = 1.2e-3 /
@@ -158,6 +167,7 @@ class Runs(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         (self.folder / "free.nml").write_text(FREE, encoding="ascii")
         (self.folder / "plate.nml").write_text(PLATE, encoding="ascii")
+        (self.folder / "large.nml").write_text(WITH_RULE, encoding="ascii")
         (self.folder / "touching.nml").write_text(TOUCHING, encoding="ascii")
         (self.folder / "breaking.nml").write_text(BREAKING, encoding="ascii")
         (self.folder / "dropped.nml").write_text(DROPPED, encoding="ascii")
@@ -207,6 +217,14 @@ class FreeBodies(Runs):
             code, log, errors = self.run_on(n, "parts", "--set", f"run.t_end={(k + 2) * 5e-5}")
             self.assertEqual(code, 0, errors)
             self.assertEqual("resumed" in log, k > 0)
+        self.assert_same("one", "parts")
+
+    def test_large_bodies_have_the_rows_of_one_process(self):
+        self.assertEqual(self.run_on(0, "one", deck="large.nml")[0], 0)
+        self.assertGreater(self.result("one")["history_interval"], 0)
+        for k, n in enumerate((3, 2)):
+            code, _, errors = self.run_on(n, "parts", "--set", f"run.t_end={(k + 1) * 2e-3}", deck="large.nml")
+            self.assertEqual(code, 0, errors)
         self.assert_same("one", "parts")
 
     def test_more_ranks_than_nodes_are_refused_in_one_line(self):

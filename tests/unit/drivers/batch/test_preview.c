@@ -264,7 +264,7 @@ TEST(details_are_left_out_unless_they_are_wanted)
         preview_print(&l->log, &d, l->run.simulation, "there/a.vtkhdf");
         read_log(l);
         expect_topics(l->text, verbose ? "dem deck lattice mass contact constants time impacts scales method kernel "
-                                         "formula output"
+                                         "formula looks output"
                                        : "deck lattice constants time output");
     }
 }
