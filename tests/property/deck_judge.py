@@ -19,6 +19,7 @@ class Run:
     def __init__(self, path):
         with h5py.File(path) as f:
             self.history = {name: column[...] for name, column in f["history"].items()}
+            self.rows_each_step = float(f["provenance/history_interval"].asstr()[()]) == 0.0
             self.lattice = {name: column[...] for name, column in f["lattice"].items()}
             frames = f["VTKHDF"]
             self.times = frames["Steps/Values"][...]
@@ -310,7 +311,7 @@ def events_per_node(run, deck):
 
 def events_in_step(run, deck):
     """The most at one node or edge, of the decks that list them: 50 changes, of which one is up to three events."""
-    if run.events is None or "history_interval" in deck.text:
+    if run.events is None or not run.rows_each_step:
         return None
     step = np.searchsorted(run.history["t"], run.events["t"])
     places = np.stack([step, run.events["node"], run.events["other"]])
