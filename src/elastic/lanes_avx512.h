@@ -202,4 +202,22 @@ static inline lanes lanes_where(unsigned chosen, lanes a, lanes b)
     return _mm512_mask_mov_pd(b, (__mmask8)chosen, a);
 }
 
+/** a where `where` is not 0, else 0. */
+static inline lanes lanes_unless_zero(lanes where, lanes a)
+{
+    return _mm512_maskz_mov_pd(_mm512_cmp_pd_mask(where, _mm512_setzero_pd(), _CMP_NEQ_UQ), a);
+}
+
+/** Of lanes in the order of memory the ones before: the last of `before`, and the first seven of a. */
+INLINE lanes lanes_behind(lanes before, lanes a)
+{
+    return _mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(a), _mm512_castpd_si512(before), 7));
+}
+
+/** And the ones behind: the last seven of a, and the first of `after`. */
+INLINE lanes lanes_ahead(lanes a, lanes after)
+{
+    return _mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(after), _mm512_castpd_si512(a), 1));
+}
+
 #endif

@@ -225,6 +225,29 @@ static inline lanes lanes_where(unsigned chosen, lanes a, lanes b)
     return b;
 }
 
+/** a where `where` is not 0, else 0. */
+static inline lanes lanes_unless_zero(lanes where, lanes a)
+{
+    HALF a.n[k] = (two){where.n[k][0] != 0.0 ? a.n[k][0] : 0.0, where.n[k][1] != 0.0 ? a.n[k][1] : 0.0};
+    return a;
+}
+
+/** Of lanes in the order of memory the ones before: the last of `before`, and the first seven of a. */
+INLINE lanes lanes_behind(lanes before, lanes a)
+{
+    lanes c;
+    HALF c.n[k] = (two){k > 0 ? a.n[k - (k > 0)][1] : before.n[3][1], a.n[k][0]};
+    return c;
+}
+
+/** And the ones behind: the last seven of a, and the first of `after`. */
+INLINE lanes lanes_ahead(lanes a, lanes after)
+{
+    lanes c;
+    HALF c.n[k] = (two){a.n[k][1], k < 3 ? a.n[k + (k < 3)][0] : after.n[0][0]};
+    return c;
+}
+
 #undef EACH
 #undef HALF
 

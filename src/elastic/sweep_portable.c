@@ -5,4 +5,6 @@
 #define SWEEP        sweep_portable
 #define SWEEP_GUARD  sweep_guard_portable
 #define SWEEP_STRAIN sweep_strain_portable
+#define LATTICE_STEP lattice_step_portable
+#include "elastic/lattice_step_body.h"
 #include "elastic/sweep_body.h"

@@ -14,15 +14,18 @@
 #define sweep_guard_avx512  sweep_guard_portable
 #define sweep_strain_avx2   sweep_strain_portable
 #define sweep_strain_avx512 sweep_strain_portable
+#define lattice_step_avx2   lattice_step_portable
+#define lattice_step_avx512 lattice_step_portable
 #endif
 
 /* By dem_kernel. A build without the instruction sets of x86 has the portable functions in their place. */
 static const kernel_functions rows[] = {
-    [DEM_KERNEL_AUTO] = {"auto", NULL, NULL, NULL, NULL},
+    [DEM_KERNEL_AUTO] = {"auto", NULL, NULL, NULL, NULL, NULL},
     [DEM_KERNEL_PORTABLE] = {"portable", sweep_portable, sweep_guard_portable, sweep_strain_portable,
-                             &array_ops_portable},
-    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2, sweep_guard_avx2, sweep_strain_avx2, &array_ops_avx2},
-    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, sweep_guard_avx512, sweep_strain_avx512, &array_ops_avx512},
+                             lattice_step_portable, &array_ops_portable},
+    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2, sweep_guard_avx2, sweep_strain_avx2, lattice_step_avx2, &array_ops_avx2},
+    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, sweep_guard_avx512, sweep_strain_avx512, lattice_step_avx512,
+                           &array_ops_avx512},
 };
 enum { n_rows = sizeof rows / sizeof rows[0] };
 

@@ -4,6 +4,7 @@
 #define DEM_FORCES_KERNEL_FUNCTIONS_H
 
 #include "base/array_ops.h"
+#include "elastic/lattice_step.h"
 #include "elastic/sweep.h"
 
 typedef struct kernel_functions {
@@ -11,6 +12,7 @@ typedef struct kernel_functions {
     sweep_function *sweep;
     sweep_guard_function *sweep_guard;
     sweep_strain_function *sweep_strain;
+    lattice_step_function *lattice_step;
     const array_ops *ops;
 } kernel_functions;
 

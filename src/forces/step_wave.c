@@ -18,9 +18,13 @@
 #include <stdlib.h>
 
 #include "base/aligned.h"
+#include "base/status.h"
+#include "elastic/lattice_wave.h"
+#include "forces/kernel_functions.h"
 
 enum {
-    TURN = 4, /* times `ahead`: blocks of the first step in a turn */
+    TURN = 4,             /* times `ahead`: blocks of the first step in a turn */
+    LEAST_NODES = 250000, /* of fewer the third cache has all arrays of a step */
     LEAST_SHARE =
         4 * STEP_WAVE_MOST /* times `ahead`: each share evaluates springs of `ahead` blocks thrice in a step */
 };
@@ -33,6 +37,7 @@ typedef struct wave_result {
 
 struct step_wave {
     const kernel *kernel;
+    lattice_wave *rows; /* NULL: blocks of the layout are taken, as follows */
     int n_shares;
     double *rings;        /* [threads][STEP_WAVE_MOST][ring_size] */
     wave_result *results; /* [2 n_shares] */
@@ -249,8 +254,33 @@ static void run_border(const void *context, int share, int thread)
     run(&p);
 }
 
+/* By lattice rows, of which the states between are nowhere. */
+static bool run_rows(lattice_wave *rows, const forces *f, step_wave_steps *steps)
+{
+    const int last = steps->n - 1;
+    const sweep_fused_step *from = &steps->step[0], *to = &steps->step[last];
+    lattice_wave_steps s = {.n = steps->n,
+                            .h = from->h,
+                            .gravity = {f->gravity[0], f->gravity[1]},
+                            .x0 = from->x0,
+                            .v0 = from->v0,
+                            .a0 = from->a0,
+                            .x1 = to->x1,
+                            .v1 = to->v1,
+                            .a1 = steps->a[last],
+                            .watched = steps->watched,
+                            .n_watched = steps->n_watched};
+    const bool holds = lattice_wave_run(rows, &s);
+    for (int step = 0; step < steps->n; step++) {
+        steps->square[step] = s.square[step];
+        steps->sum[step] = s.sum[step];
+    }
+    return holds;
+}
+
 bool step_wave_run(step_wave *w, const forces *f, step_wave_steps *steps)
 {
+    if (w->rows != NULL) return run_rows(w->rows, f, steps);
     const wave_run context = {w, f, steps};
     bool holds = true;
     for (int k = 0; k < 2 * w->n_shares; k++) w->results[k] = (wave_result){.holds = true};
@@ -281,13 +311,39 @@ static int count_shares(const kernel *k)
     return fewest <= most ? fewest : 0;
 }
 
+/* Lattice rows have springs and guards alone. Without memory for them blocks of the layout are taken. */
+static lattice_wave *create_rows(const kernel *k)
+{
+    const dem_model *m = k->model;
+    const lattice_rows_input from = {&m->springs, &m->triangles, m->lattice.x, m->inverse_mass};
+    lattice_wave *rows = NULL;
+    if (m->layout.stiff || m->layout.coupled || m->layout.damped) return NULL;
+    return lattice_wave_create(&rows, &from, kernel_functions_of(k->kind)->lattice_step, k->team) == DEM_OK ? rows
+                                                                                                            : NULL;
+}
+
+bool step_wave_pays(const step_wave *w)
+{
+    return w->rows != NULL || w->kernel->model->layout.n_nodes >= LEAST_NODES;
+}
+
+int step_wave_most(const step_wave *w)
+{
+    return w->rows != NULL ? lattice_wave_most(w->rows) : STEP_WAVE_MOST;
+}
+
 step_wave *step_wave_create(const kernel *k)
 {
     const int n_shares = count_shares(k), threads = team_threads(k->team);
-    if (k->packed != NULL || n_shares == 0) return NULL;
-    step_wave *w = calloc(1, sizeof *w);
-    if (w == NULL) return NULL;
-    *w = (step_wave){.kernel = k, .n_shares = n_shares};
+    if (k->packed != NULL) return NULL;
+    lattice_wave *rows = create_rows(k);
+    step_wave *w = rows != NULL || n_shares > 0 ? calloc(1, sizeof *w) : NULL;
+    if (w == NULL) {
+        lattice_wave_free(rows);
+        return NULL;
+    }
+    *w = (step_wave){.kernel = k, .rows = rows, .n_shares = n_shares};
+    if (rows != NULL) return w;
     w->rings = aligned_zeros((size_t)threads * STEP_WAVE_MOST * k->ring_size);
     w->results = calloc(2 * (size_t)w->n_shares, sizeof *w->results);
     if (w->rings != NULL && w->results != NULL) return w;
@@ -298,6 +354,7 @@ step_wave *step_wave_create(const kernel *k)
 void step_wave_free(step_wave *w)
 {
     if (w == NULL) return;
+    lattice_wave_free(w->rows);
     free(w->rings);
     free(w->results);
     free(w);

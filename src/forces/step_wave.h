@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Several fused steps of Verlet's method in one pass over the blocks of a layout, to the bits of one after the other: a
- * block takes them all while it is in the cache. How they follow each other is in the .c file. */
+/* Several fused steps of Verlet's method in one pass, to the bits of one after the other: over the lattice rows of a
+ * body (elastic/lattice_wave.h), or over the blocks of a layout, each of which takes them all while it is in the cache.
+ * How blocks follow each other is in the .c file. */
 #ifndef DEM_FORCES_STEP_WAVE_H
 #define DEM_FORCES_STEP_WAVE_H
 
@@ -23,9 +24,15 @@ typedef struct step_wave_steps {
 typedef struct step_wave step_wave;
 
 /** Room for waves; borrows the kernel. NULL without memory, or if there are none: if nodes are numbered otherwise than
- *  in the layout, or are too few for the team. Free with step_wave_free(). */
+ *  in the layout, or without lattice rows are too few for the team. Free with step_wave_free(). */
 step_wave *step_wave_create(const kernel *k);
 void step_wave_free(step_wave *w);
+
+/** Whether waves take less time than their steps in turn. */
+bool step_wave_pays(const step_wave *w);
+
+/** How many steps a wave takes at most. */
+int step_wave_most(const step_wave *w);
 
 /** Takes the steps, where kernel_can_fuse() and kernel_is_trimmed() hold and surfaces do not touch each other.
  *  \return false if something is not finite, or the guard acts somewhere at an end of a step: the arrays at the ends

@@ -12,12 +12,11 @@
 #include "simulation/body_contact.h"
 
 enum {
-    LEAST_NODES = 250000, /* of fewer the third cache has all arrays of a step */
-    FEWEST = 3,           /* steps that are worth it, and more than one; */
-    FEWEST_RINGS = 4,     /* of ghosts likewise */
-    SHORT_WAIT = 16,      /* steps, after the first failure in a row, */
-    LONG_WAIT = 1024,     /* and after many */
-    LONG_PAUSE = 63       /* steps until ranks ask each other again, after having done so in vain several times */
+    FEWEST = 3,       /* steps that are worth it, and more than one; */
+    FEWEST_RINGS = 4, /* of ghosts likewise */
+    SHORT_WAIT = 16,  /* steps, after the first failure in a row, */
+    LONG_WAIT = 1024, /* and after many */
+    LONG_PAUSE = 63   /* steps until ranks ask each other again, after having done so in vain several times */
 };
 
 static dem_status list_surface(dem_simulation *s)
@@ -41,14 +40,8 @@ ring_use unseen_steps_ring_use(const dem_options *o)
 /* Ranks integrate ghosts, a ring less in each step. */
 static int most_at_once(const dem_simulation *s)
 {
-    const int rings = run_is_shared(s) ? s->model->domain->n_rings : ODE_FUSED_STEPS;
-    return rings < ODE_FUSED_STEPS ? rings : ODE_FUSED_STEPS;
-}
-
-/* Fewer rings than pay are those of Fehlberg's pair. */
-static bool is_large(const dem_simulation *s)
-{
-    return run_is_shared(s) ? s->model->domain->n_rings >= FEWEST_RINGS : s->layout.n_nodes >= LEAST_NODES;
+    const int most = step_wave_most(s->unseen.wave);
+    return run_is_shared(s) && s->model->domain->n_rings < most ? s->model->domain->n_rings : most;
 }
 
 /* With `exact` the whole body stops at roots, which are found among all candidates that are near. */
@@ -56,8 +49,14 @@ static bool may_be_unseen(const dem_simulation *s)
 {
     const bool fixed = s->options.method == DEM_METHOD_VERLET && s->options.fixed_step > 0.0;
     const bool alone = s->rigid == NULL && s->external == NULL && s->boundaries.n == 0 && !s->model->obstacles.is_asked;
-    return fixed && alone && is_large(s) && !run_may_break(s) && run_is_local(s) &&
-           kernel_can_fuse(&s->kernel, &s->forces);
+    const bool few = run_is_shared(s) && s->model->domain->n_rings < FEWEST_RINGS; /* those of Fehlberg's pair */
+    return fixed && alone && !few && !run_may_break(s) && run_is_local(s) && kernel_can_fuse(&s->kernel, &s->forces);
+}
+
+/* Those of ranks pay by the exchanges that they save, too. */
+static bool pays(const dem_simulation *s)
+{
+    return s->unseen.wave != NULL && (run_is_shared(s) || step_wave_pays(s->unseen.wave));
 }
 
 /* All ranks take them, or none does. */
@@ -65,7 +64,7 @@ dem_status unseen_steps_create(dem_simulation *s)
 {
     run_unseen *u = &s->unseen;
     if (may_be_unseen(s)) u->wave = step_wave_create(&s->kernel);
-    if (reduce_any(s->model->ranks, u->wave == NULL)) unseen_steps_destroy(s);
+    if (reduce_any(s->model->ranks, !pays(s))) unseen_steps_destroy(s);
     return u->wave != NULL && s->model->obstacles.n > 0 ? list_surface(s) : DEM_OK;
 }
 
@@ -144,7 +143,8 @@ int unseen_steps_take(dem_simulation *s, int most, double t_end)
     run_unseen *u = &s->unseen;
     u->is_last = false;
     if (u->wave == NULL || s->forces.elements != NULL) return 0;
-    int n = count_to_frame(s, most < most_at_once(s) ? most : most_at_once(s), t_end);
+    const int at_once = most_at_once(s);
+    int n = count_to_frame(s, most < at_once ? most : at_once, t_end);
     if (n < FEWEST || is_waiting(u)) return 0;
     n = (int)reduce_min(s->model->ranks, count_free(s, n));
     if (n < FEWEST) {
