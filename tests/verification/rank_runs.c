@@ -7,6 +7,7 @@
 #include "ask.h"
 #include "base/checkpoint_entries.h"
 #include "simulation/led_run.h"
+#include "simulation/rank_shares.h"
 #include "simulation/private.h"
 #include "support.h"
 
@@ -299,6 +300,13 @@ static dem_status see_step(void *context, const dem_simulation *s)
     return o->n_steps == scene->step ? look(s, o, RANK_RUNS_STOPS) : DEM_OK;
 }
 
+static dem_status see_frame(void *context, const dem_simulation *s)
+{
+    (void)s;
+    ((rank_runs_outcome *)context)->n_frames++;
+    return DEM_OK;
+}
+
 /* Rank 0 has that of the whole, and keeps it. */
 static dem_status keep_checkpoint(void *context, const dem_simulation *s, dem_checkpoint *checkpoint)
 {
@@ -332,11 +340,13 @@ static dem_status begin(dem_simulation **s, const dem_model *model, const ranks 
                         rank_runs_outcome *o)
 {
     const dem_options *options = &o->scene->options;
-    const bool sees_steps = o->scene->step > 0 || o->scene->counts_calls || o->scene->stops != NULL;
+    const int n_frames = o->scene->n_frames;
+    const bool sees_steps = o->scene->step > 0 || o->scene->counts_calls || o->scene->stops != NULL || n_frames > 0;
     const dem_checkpoint *checkpoint = from != NULL && model->ranks->rank == 0 ? from->kept : NULL;
     const dem_observer observer =
         SIZED(dem_observer, .context = o, .event = note_event, .broken = note_break,
-              .step = sees_steps ? see_step : NULL, .checkpoint = from == NULL ? keep_checkpoint : NULL);
+              .step = sees_steps ? see_step : NULL, .interval = n_frames > 0 ? o->scene->t_end / n_frames : 0.0,
+              .frame = n_frames > 0 ? see_frame : NULL, .checkpoint = from == NULL ? keep_checkpoint : NULL);
     dem_status status =
         from != NULL ? dem_simulation_resume(s, model, options, checkpoint) : dem_simulation_create(s, model, options);
     if (status == DEM_OK && leads != NULL) status = dem_private_lead(*s, leads, options, checkpoint);
@@ -367,12 +377,21 @@ static dem_status advance_to(dem_simulation *s, int k, rank_runs_outcome *o)
     return status == DEM_OK ? seen : status;
 }
 
+static double count_common(const dem_simulation *s)
+{
+    double least[RANK_SHARES_ALL], most[RANK_SHARES_ALL];
+    dem_private_shares(s, least, most);
+    return most[RANK_SHARES_COMMON];
+}
+
 void rank_runs_go(const dem_model *model, const ranks *leads, const rank_runs_outcome *from, rank_runs_outcome *o)
 {
     dem_simulation *s = NULL;
     dem_status status = begin(&s, model, leads, from, o);
     note_failure(o, status);
+    if (status == DEM_OK && leads != NULL) o->n_common[0] = count_common(s);
     for (int k = first_stop(from); k < RANK_RUNS_STOPS && status == DEM_OK; k++) status = advance_to(s, k, o);
+    if (status == DEM_OK && leads != NULL) o->n_common[1] = count_common(s);
     dem_simulation_destroy(s);
 }
 
@@ -515,6 +534,8 @@ const char *rank_runs_difference(const rank_runs_outcome *one, const rank_runs_o
         const char *what = difference_at(one, whole, k);
         if (what != NULL) return what;
     }
+    if (from == NULL && (one->n_steps != whole->n_steps || one->n_frames != whole->n_frames))
+        return "number of steps or frames";
     if (from == NULL && one->kept_t != whole->kept_t) return "time of the checkpoint that is kept";
     if (one->kept != NULL && whole->kept != NULL) {
         const char *what = difference_of_checkpoints(one->kept, whole->kept);

@@ -38,6 +38,7 @@ typedef struct rank_runs_scene {
     /** Whether a checkpoint is the one to keep; NULL: the third is. */
     bool (*keeps)(const dem_simulation *s, const rank_runs_outcome *so_far);
     bool counts_calls; /* up to the end of each step */
+    int n_frames;      /* until t_end, behind the first one: these and steps are counted; 0: there are none */
     /** Whether the observer of a step ends the run; NULL: it does not. */
     bool (*stops)(const dem_simulation *s, const rank_runs_outcome *so_far);
     /** Is called after an advance that has failed, and says whether it is to be tried once more; NULL: it is not. Then
@@ -85,6 +86,8 @@ struct rank_runs_outcome {
     rank_runs_note *notes; /* [n_notes] */
     dem_index n_steps;     /* seen by the observer, if there is one; */
     rank_runs_step *steps; /* [n_steps] if calls are counted */
+    dem_index n_frames;    /* likewise seen */
+    double n_common[2]; /* of a leader: nodes of others that a rank integrates, at most, at the start and at the end */
     dem_index n_checkpoints;
     dem_checkpoint *kept;
     double kept_t;                       /* s */
