@@ -155,6 +155,12 @@ INLINE lanes lanes_inverse_error(lanes b, lanes y)
  *  (P. Markstein, IBM J. Res. Dev. 34 (1990) 111). Where all bits of b's significand are 1 that needs an inverse which
  *  is not too small before, therefore the second is rounded up. Zeros keep their sign. Other than by a division an
  *  infinite quotient, and one by infinity, is NAN, and nothing holds where a remainder or an inverse is subnormal. */
+#ifdef LANES_DIVIDE
+INLINE lanes lanes_div(lanes a, lanes b)
+{
+    return _mm512_div_pd(a, b);
+}
+#else
 INLINE lanes lanes_div(lanes a, lanes b)
 {
     const lanes sign = _mm512_set1_pd(-0.0);
@@ -167,6 +173,7 @@ INLINE lanes lanes_div(lanes a, lanes b)
     const lanes nearest = _mm512_fmadd_pd(_mm512_fnmadd_pd(b, quotient, a), inverse, quotient);
     return _mm512_or_pd(nearest, _mm512_and_pd(a, sign));
 }
+#endif
 
 INLINE lanes lanes_sqrt(lanes a)
 {

@@ -28,6 +28,6 @@ typedef struct lattice_step {
  *  filled. The bits are those of a fused step of a sweep (elastic/sweep.h). */
 typedef void lattice_step_function(lattice_step *s);
 
-lattice_step_function lattice_step_portable, lattice_step_avx2, lattice_step_avx512;
+lattice_step_function lattice_step_portable, lattice_step_avx2, lattice_step_avx512, lattice_step_avx512_divider;
 
 #endif

@@ -69,17 +69,17 @@ typedef struct sweep {
  *  these are wanted */
 typedef double sweep_function(const sweep *s, dem_index first, dem_index last, double *ring);
 
-sweep_function sweep_portable, sweep_avx2, sweep_avx512;
+sweep_function sweep_portable, sweep_avx2, sweep_avx512, sweep_avx512_divider;
 
 /** Fills `guarded` and nothing else. */
 typedef void sweep_guard_function(const sweep *s, dem_index first, dem_index last);
 
-sweep_guard_function sweep_guard_portable, sweep_guard_avx2, sweep_guard_avx512;
+sweep_guard_function sweep_guard_portable, sweep_guard_avx2, sweep_guard_avx512, sweep_guard_avx512_divider;
 
 /** Fills `strained` and nothing else. In either sweep a spring whose strain is within 1e-12 of a limit may count or
  *  not. */
 typedef void sweep_strain_function(const sweep *s, dem_index first, dem_index last);
 
-sweep_strain_function sweep_strain_portable, sweep_strain_avx2, sweep_strain_avx512;
+sweep_strain_function sweep_strain_portable, sweep_strain_avx2, sweep_strain_avx512, sweep_strain_avx512_divider;
 
 #endif

@@ -8,14 +8,18 @@
 #include "base/status.h"
 
 #ifndef DEM_X86_KERNELS
-#define sweep_avx2          sweep_portable
-#define sweep_avx512        sweep_portable
-#define sweep_guard_avx2    sweep_guard_portable
-#define sweep_guard_avx512  sweep_guard_portable
-#define sweep_strain_avx2   sweep_strain_portable
-#define sweep_strain_avx512 sweep_strain_portable
-#define lattice_step_avx2   lattice_step_portable
-#define lattice_step_avx512 lattice_step_portable
+#define sweep_avx2                  sweep_portable
+#define sweep_avx512                sweep_portable
+#define sweep_avx512_divider        sweep_portable
+#define sweep_guard_avx2            sweep_guard_portable
+#define sweep_guard_avx512          sweep_guard_portable
+#define sweep_guard_avx512_divider  sweep_guard_portable
+#define sweep_strain_avx2           sweep_strain_portable
+#define sweep_strain_avx512         sweep_strain_portable
+#define sweep_strain_avx512_divider sweep_strain_portable
+#define lattice_step_avx2           lattice_step_portable
+#define lattice_step_avx512         lattice_step_portable
+#define lattice_step_avx512_divider lattice_step_portable
 #endif
 
 /* By dem_kernel. A build without the instruction sets of x86 has the portable functions in their place. */
@@ -27,6 +31,12 @@ static const kernel_functions rows[] = {
     [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, sweep_guard_avx512, sweep_strain_avx512, lattice_step_avx512,
                            &array_ops_avx512},
 };
+static const kernel_functions avx512_divider = {"avx512",
+                                                sweep_avx512_divider,
+                                                sweep_guard_avx512_divider,
+                                                sweep_strain_avx512_divider,
+                                                lattice_step_avx512_divider,
+                                                &array_ops_avx512};
 enum { n_rows = sizeof rows / sizeof rows[0] };
 
 /* Whether this machine and this build have the instruction set. */
@@ -72,5 +82,5 @@ dem_status dem_kernel_check(dem_kernel kind)
 
 const kernel_functions *kernel_functions_of(dem_kernel kind)
 {
-    return &rows[kind];
+    return kind == DEM_KERNEL_AVX512 && instruction_set_divides() ? &avx512_divider : &rows[kind];
 }
