@@ -580,7 +580,7 @@ static double residual_of(const dem_simulation *s, const double *y)
 
 static bool is_residual_known(const dem_simulation *s)
 {
-    return s->path.f1 != NULL && !s->at_event && s->path.end == s->path.t1;
+    return s->path.f1 != NULL && !s->in_hand && !s->at_event && s->path.end == s->path.t1;
 }
 
 /* Something else may be seen, and of the end of the step, which is the integrator's, ghosts are not all known: they are

@@ -153,7 +153,7 @@ int unseen_steps_take(dem_simulation *s, int most, double t_end)
     }
     u->last_pause = 0;
     double ends[ODE_FUSED_STEPS];
-    if (!integrator_take_unseen(&s->integrator, n, ends)) {
+    if (!integrator_take_unseen(&s->integrator, n, ends, &s->path)) {
         wait(u);
         return 0;
     }

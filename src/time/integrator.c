@@ -26,9 +26,9 @@ dem_status integrator_step(integrator *e, dense_output *step, bool *rooted)
     return e->ops->step(e->self, step, rooted);
 }
 
-bool integrator_take_unseen(integrator *e, int n, double *ends)
+bool integrator_take_unseen(integrator *e, int n, double *ends, dense_output *last)
 {
-    return e->ops->take_unseen != NULL && e->ops->take_unseen(e->self, n, ends);
+    return e->ops->take_unseen != NULL && e->ops->take_unseen(e->self, n, ends, last);
 }
 
 void integrator_end(integrator *e, double **y1, double **f1)

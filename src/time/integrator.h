@@ -28,8 +28,9 @@ dem_status integrator_step(integrator *e, dense_output *step, bool *rooted);
 /** Takes n steps, 1 to ODE_FUSED_STEPS, of which nobody sees any, without roots, and settles them: the state is as if
  *  each had been taken by itself.
  *  \param[out] ends  [n] s, when they end
+ *  \param[out] last  the last of them, at its end alone: nothing is known inside
  *  \return false if it cannot: nothing has changed then */
-bool integrator_take_unseen(integrator *e, int n, double *ends);
+bool integrator_take_unseen(integrator *e, int n, double *ends, dense_output *last);
 
 /** The end of the step just taken, [2 dim n_rows], and its derivative: events inside the step change both before it is
  *  settled. */

@@ -13,7 +13,7 @@ typedef struct integrator_ops {
     dem_status (*create)(void **self, const ode_problem *problem, double t, const double *y);
     void (*destroy)(void *self); /* NULL is allowed */
     dem_status (*step)(void *self, dense_output *step, bool *rooted);
-    bool (*take_unseen)(void *self, int n, double *ends); /* NULL where there are none */
+    bool (*take_unseen)(void *self, int n, double *ends, dense_output *last); /* NULL where there are none */
     void (*end)(void *self, double **y1, double **f1);
     dem_status (*redo)(void *self, double factor); /* NULL where steps are always fixed */
     void (*settle)(void *self, const dense_output *step);

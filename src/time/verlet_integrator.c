@@ -353,7 +353,7 @@ static void lay_out(const verlet_integrator *V, ode_fused_step *steps, int n)
 }
 
 /* Quadratures come after all steps, as their rates are the same at every end. */
-static bool verlet_integrator_take_unseen(void *self, int n, double *ends)
+static bool verlet_integrator_take_unseen(void *self, int n, double *ends, dense_output *last)
 {
     verlet_integrator *V = self;
     const ode_problem *p = &V->problem;
@@ -376,6 +376,13 @@ static bool verlet_integrator_take_unseen(void *self, int n, double *ends)
     V->at_end = true;
     V->resumed = false;
     if (p->domain != NULL) attempt_end_at_rest(&V->attempt);
+    *last = (dense_output){.layout = p->layout,
+                           .parabolic = true,
+                           .t0 = steps[n - 1].t1 - p->fixed_step,
+                           .t1 = V->t1,
+                           .end = V->t1,
+                           .y1 = V->y1,
+                           .f1 = V->f1};
     go_on(V);
     return true;
 }

@@ -207,6 +207,7 @@ TEST(steps_at_once_are_those_in_turn)
         int taken = 0;
         double ends[8];
         bool rooted;
+        dense_output last;
         for (int k = 0; k < 2; k++) {
             const ode_problem problem = {.method = DEM_METHOD_VERLET,
                                          .layout = {.dim = 2, .n_nodes = 1, .n_rows = 2},
@@ -217,7 +218,8 @@ TEST(steps_at_once_are_those_in_turn)
                                          .fixed_step = h};
             assert_ok(integrator_create(&V[k], &problem, 0.0, start));
         }
-        for (; integrator_take_unseen(&V[1], n, ends); taken++) {
+        for (; integrator_take_unseen(&V[1], n, ends, &last); taken++) {
+            assert_true(last.y1 == integrator_state(&V[1]) && last.end == ends[n - 1] && last.t1 == ends[n - 1]);
             assert_int_equal(integrator_counts(&V[1]).steps, n * (taken + 1));
             for (int k = 0; k < n; k++) assert_close(ends[k], h * (n * taken + k + 1), 1e-14);
         }
