@@ -86,13 +86,12 @@ static void drop(led_run *l)
     l->is_observed = false;
 }
 
-/* Of the whole only the cut of domains needs shares in stresses, which each part has of its nodes. */
+/* Shares in stresses of the whole, which creating its simulation may have made, nobody reads: parts have their own. */
 static dem_status distribute(led_run *l, const dem_private_whole *about)
 {
     const dem_model *whole = l->whole != NULL ? l->whole->model : NULL;
-    const dem_status status = shared_model_distribute(&l->model, whole, about, &l->ranks);
     if (whole != NULL) stress_forget(&whole->stress);
-    return status;
+    return shared_model_distribute(&l->model, whole, about, &l->ranks);
 }
 
 static dem_status create_part(led_run *l, const shared_problem *p, bool resumes, const dem_checkpoint *checkpoint)
@@ -196,13 +195,28 @@ static dem_status release(led_run *l, dem_status status)
     return status;
 }
 
-/* Where bodies touch is not asked: observers that want to see it see all steps but those taken at once. */
 static dem_status lead_step(void *context, const dem_simulation *part)
 {
     if (has_seen_step(context, part)) return DEM_OK;
     led_run *l = hold(context);
-    const accepted_step step = {run_count_steps(part), part->t, !part->unseen.is_last};
-    return release(l, observers_step(&l->whole->observers, l->whole, &step));
+    observers *a = &l->whole->observers;
+    const accepted_step step = {run_count_steps(part), part->t, observers_want_touching(a) && run_touches(part)};
+    return release(l, observers_step(a, l->whole, &step));
+}
+
+/* Of an observer that is called before something touches, and behind such a step, where it has nothing to show. What
+ * is before a step that has been seen until all went back has been shown. */
+static bool is_before(const led_run *l, const dem_simulation *part)
+{
+    return part->in_hand && run_count_steps(part) > l->seen.step;
+}
+
+static dem_status lead_before(void *context, const dem_simulation *part)
+{
+    if (!is_before(context, part)) return DEM_OK;
+    led_run *l = hold(context);
+    const accepted_step before = {run_count_steps(part) - 1, part->t, false};
+    return release(l, observers_before_touching(&l->whole->observers, l->whole, &before));
 }
 
 static dem_status lead_event(void *context, const dem_simulation *part, const dem_event *event)
@@ -293,6 +307,11 @@ static dem_status follow_step(void *context, const dem_simulation *part)
     return has_seen_step(context, part) ? DEM_OK : wait_for_leader(context);
 }
 
+static dem_status follow_before(void *context, const dem_simulation *part)
+{
+    return is_before(context, part) ? wait_for_leader(context) : DEM_OK;
+}
+
 static dem_status follow_event(void *context, const dem_simulation *part, const dem_event *event)
 {
     (void)part;
@@ -342,6 +361,12 @@ static dem_status observe(led_run *l, const rank_call *o)
         if (o->intervals[k] > 0.0) TRY(dem_simulation_observe(l->part, &frame));
     }
     TRY(dem_simulation_observe(l->part, &steps));
+    const dem_observer before = {.struct_size = sizeof before,
+                                 .step = leads ? lead_before : follow_before,
+                                 .step_every = INT64_MAX,
+                                 .step_touching = 1,
+                                 .context = l};
+    if (o->number & RANK_CALL_WITH_TOUCHING) TRY(dem_simulation_observe(l->part, &before));
     l->is_observed = true;
     return DEM_OK;
 }
@@ -427,6 +452,7 @@ static dem_status attach(led_run *l)
     rank_call o = {.kind = RANK_CALL_OBSERVE};
     if (observers_want_events(a)) o.number |= RANK_CALL_WITH_EVENTS;
     if (observers_want_breaks(a)) o.number |= RANK_CALL_WITH_BREAKS;
+    if (observers_want_touching(a)) o.number |= RANK_CALL_WITH_TOUCHING;
     for (int k = 0; k < a->n; k++)
         if (a->members[k].observer.frame != NULL) o.intervals[k] = a->members[k].observer.interval;
     o = rank_call_send(&l->ranks, o);
@@ -614,7 +640,8 @@ dem_status led_run_advance(dem_simulation *whole, double t_end)
         if (!l->is_observed) TRY(attach(l));
         const dem_status status = advance_parts(l, t_end);
         const bool back = goes_back(l);
-        if (!back && !l->shares_anew) return status;
+        /* Without such nodes all that may touch is common as it is. */
+        if (back ? near_contact_nodes(&l->near) == NULL : !l->shares_anew) return status;
         TRY(back ? go_back(l) : share_anew(l));
     }
 }

@@ -190,4 +190,7 @@ static inline bool run_had_events(const dem_simulation *s)
     return run_is_local(s) && !s->queue.quiet;
 }
 
+/** Whether something has touched in the step that was taken last, of which the end is seen now. */
+bool run_touches(const dem_simulation *s);
+
 #endif

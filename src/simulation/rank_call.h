@@ -33,7 +33,7 @@ typedef enum rank_call_kind {
 } rank_call_kind;
 
 /* Bits: what observers want beside steps and frames. */
-enum { RANK_CALL_WITH_EVENTS = 1, RANK_CALL_WITH_BREAKS = 2 };
+enum { RANK_CALL_WITH_EVENTS = 1, RANK_CALL_WITH_BREAKS = 2, RANK_CALL_WITH_TOUCHING = 4 };
 
 typedef struct rank_call {
     rank_call_kind kind;

@@ -148,8 +148,8 @@ static bool has_contact_events(const dem_simulation *s)
     return s->n_inside > 0 || s->at_event;
 }
 
-/* Whether something has touched in that step, of which the end is seen now. Of rigid bodies that is not asked. */
-static bool touches(const dem_simulation *s)
+/* Of rigid bodies that is not asked. */
+bool run_touches(const dem_simulation *s)
 {
     if (has_contact_events(s) || s->automaton.set.forces.n_groups > 0 || s->rigid != NULL) return true;
     return s->surfaces != NULL && query_surfaces(s)->pushing > 0;
@@ -159,7 +159,7 @@ static bool touches(const dem_simulation *s)
 static dem_status report_step(dem_simulation *s)
 {
     TRY(show_state(s));
-    const accepted_step step = {run_count_steps(s), s->t, observers_want_touching(&s->observers) && touches(s)};
+    const accepted_step step = {run_count_steps(s), s->t, observers_want_touching(&s->observers) && run_touches(s)};
     const dem_status status = observers_step(&s->observers, s, &step);
     if (!run_is_shared(s) || s->is_led) return status; /* which all ranks have alike */
     note_stop(&s->stop, status);

@@ -79,6 +79,15 @@ BREAKING = """
 &output name = 'free', frame_interval = 1e-4, peak_every = 3,
     fields = 'displacement', 'stress', 'principal', 'strain', 'force', 'fragment', 'damage', 'contact' /
 """
+# So many nodes that rows are left out, which falls on a floor and comes off again.
+LANDS = """
+&run t_end = 6e-3 /
+&material youngs_modulus = 1e7, density = 1050 /
+&body shape = 'rectangle', size = 0.2, 0.2, spacing = 2.8e-3, clearance = 4e-3, velocity = 0, -5 /
+&obstacle points = -1, 0, 1, 0 /
+&solver method = 'verlet', checkpoint_steps = 40 /
+&output name = 'free', frame_interval = 1e-3 /
+"""
 # 400,000 nodes that take several steps at once, and land before the last checkpoint, which has the last step that the
 # report has seen: of ranks it sees all that are taken by themselves.
 LARGE = """
@@ -226,6 +235,17 @@ class FreeBodies(Runs):
             code, _, errors = self.run_on(n, "parts", "--set", f"run.t_end={(k + 1) * 2e-3}", deck="large.nml")
             self.assertEqual(code, 0, errors)
         self.assert_same("one", "parts")
+
+    def test_rows_left_out_leave_the_checkpoints_of_one_process(self):
+        """In flight, on the floor, and off it again: what has been seen last is in them."""
+        (self.folder / "lands.nml").write_text(LANDS, encoding="ascii")
+        for k, t_end in enumerate((6e-4, 3e-3, 6e-3)):
+            for n in (0, 3):
+                code, _, errors = self.run_on(n, f"{n}_{k}", "--set", f"run.t_end={t_end}", deck="lands.nml")
+                self.assertEqual(code, 0, errors)
+            self.assert_same(f"0_{k}", f"3_{k}")
+        self.assertGreater(self.result("0_2")["history_interval"], 0)
+        self.assertEqual(self.result("0_2")["contacts"], 0)
 
     def test_more_ranks_than_nodes_are_refused_in_one_line(self):
         (self.folder / "few.nml").write_text("&run t_end = 1e-5 /\n&material youngs_modulus = 1e7, density = 1050 /\n"
