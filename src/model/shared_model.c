@@ -76,6 +76,7 @@ static dem_status find_owners(int32_t **owner, const dem_lattice *whole, const d
 /* What a rank does by itself. */
 static dem_status prepare(dem_model **whole, int32_t **owner, const dem_private_whole *of, int n_ranks)
 {
+    TRY(of->refused);
     TRY(dem_model_create(whole, of->lattice, of->obstacles, of->n_obstacles));
     return find_owners(owner, &(*whole)->lattice, of->weights, n_ranks);
 }

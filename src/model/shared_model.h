@@ -25,6 +25,7 @@ typedef struct dem_private_whole {
     const double *weights;        /* [nodes] >= 0, what they weigh in the partition; NULL: all the same */
     const unsigned char *is_near; /* [nodes] as domain_model_shares has them */
     ring_use use;                 /* of rings of ghosts; of 0 rings: not known */
+    dem_status refused;           /* not DEM_OK: what this rank has been given already has failed, with a message */
 } dem_private_whole;
 
 /** Shares the nodes out among ranks, each of which gets the model of its part. Collective: whatever fails on one rank

@@ -48,8 +48,8 @@ dem_status dem_model_create_mpi_for(dem_model **out, const dem_lattice *lattice,
 {
     TRY(check(out, communicator));
     dem_private_whole whole = {.lattice = lattice, .obstacles = obstacles, .n_obstacles = n_obstacles};
-    if (options == NULL) return dem_private_fail(DEM_ERROR_ARGUMENT, "dem_model_create_mpi_for: options is NULL");
-    TRY(dem_private_use_shared(&whole, options));
+    whole.refused = options != NULL ? dem_private_use_shared(&whole, options)
+                                    : dem_private_fail(DEM_ERROR_ARGUMENT, "dem_model_create_mpi_for: options is NULL");
     return share(out, &whole, communicator);
 }
 

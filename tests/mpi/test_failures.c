@@ -42,6 +42,9 @@ static void refuse_lattices(const dem_lattice *l, bool fails, int n_ranks)
     dem_options options = dem_options_default();
     check_refusal(dem_model_create_mpi_for(&model, l, NULL, 0, NULL, MPI_COMM_WORLD), DEM_ERROR_ARGUMENT,
                   "options is NULL");
+    if (fails) options.contact = (dem_contact_method)7;
+    check_refusal(dem_model_create_mpi_for(&model, l, NULL, 0, &options, MPI_COMM_WORLD), DEM_ERROR_ARGUMENT, "");
+    options = dem_options_default();
     if (fails) options.method = DEM_METHOD_VERLET;
     if (n_ranks > 1)
         check_refusal(dem_model_create_mpi_for(&model, l, NULL, 0, &options, MPI_COMM_WORLD), DEM_ERROR_ARGUMENT,
