@@ -35,7 +35,7 @@ static dem_status look_at_springs(dem_peaks *p, const dem_simulation *simulation
     return DEM_OK;
 }
 
-/* Those of stresses and strains, too, which a rank that leads a run does without. */
+/* Room for stresses and strains, which a rank that leads a run does without. */
 static dem_status make_scratch(dem_peaks *p)
 {
     if (p->stress == NULL) p->stress = calloc((size_t)p->n_nodes, 3 * sizeof *p->stress);

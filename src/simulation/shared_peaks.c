@@ -23,14 +23,33 @@ static dem_status take(const dem_model *m, const dem_peaks *whole, dem_peaks *pa
     return gather_back(m->ranks, &of_springs, sizeof *part->springs, is_root ? whole->springs : NULL, part->springs);
 }
 
-/* The other way round. */
+/* The other way round. Unless all come there are none. */
 static dem_status bring(const dem_model *m, dem_peaks *whole, const dem_peaks *part)
 {
     const gather_items of_nodes = gather_nodes(m->domain), of_springs = gather_springs(m->domain, &m->lattice);
     const bool is_root = whole != NULL;
-    TRY(reduce_status(m->ranks, is_root ? peaks_make_room(whole) : DEM_OK, 0.0));
-    TRY(gather_rows(m->ranks, &of_nodes, sizeof *part->nodes, part->nodes, is_root ? whole->nodes : NULL));
-    return gather_rows(m->ranks, &of_springs, sizeof *part->springs, part->springs, is_root ? whole->springs : NULL);
+    dem_status status = reduce_status(m->ranks, is_root ? peaks_make_room(whole) : DEM_OK, 0.0);
+    if (status == DEM_OK)
+        status = gather_rows(m->ranks, &of_nodes, sizeof *part->nodes, part->nodes, is_root ? whole->nodes : NULL);
+    if (status == DEM_OK)
+        status =
+            gather_rows(m->ranks, &of_springs, sizeof *part->springs, part->springs, is_root ? whole->springs : NULL);
+    if (status != DEM_OK && is_root) peaks_give_up(whole);
+    return status;
+}
+
+/* All ranks have peaks afterwards, or none. */
+static dem_status begin(shared_peaks *s, const dem_model *m, int k)
+{
+    dem_peaks **own = &s->part[k];
+    dem_peaks_destroy(*own);
+    *own = NULL;
+    dem_status status = reduce_status(m->ranks, dem_peaks_create(own, m, 1), 0.0);
+    if (status == DEM_OK) status = take(m, s->whole[k], *own);
+    if (status == DEM_OK) return DEM_OK;
+    dem_peaks_destroy(*own);
+    *own = NULL;
+    return status;
 }
 
 dem_status shared_peaks_answer(shared_peaks *s, const dem_simulation *part, const rank_call *what)
@@ -39,10 +58,7 @@ dem_status shared_peaks_answer(shared_peaks *s, const dem_simulation *part, cons
     dem_peaks *whole = s->whole[what->number], **own = &s->part[what->number];
     switch (what->kind) {
     case RANK_CALL_PEAKS_TAKE:
-        dem_peaks_destroy(*own);
-        *own = NULL;
-        TRY(reduce_status(m->ranks, dem_peaks_create(own, m, 1), 0.0));
-        return take(m, whole, *own);
+        return begin(s, m, (int)what->number);
     case RANK_CALL_PEAKS_BRING:
         return bring(m, whole, *own);
     default:
