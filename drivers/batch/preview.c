@@ -10,6 +10,7 @@
 #include "doubts.h"
 #include "estimate.h"
 #include "loading.h"
+#include "looks.h"
 #include "memory.h"
 #include "relaxation.h"
 #include "step_report.h"
@@ -393,21 +394,23 @@ static void print_output(FILE *out, const char *path, const estimate *e)
                   path != NULL ? ": " : "", e->frames, e->frames == 1.0 ? "" : "s", 1e-6 * e->output);
 }
 
-/* Rows that a run does not have, though its deck does not say so, are in the short log too. */
+/* What the size has made rarer, though the deck does not say so, is in the short log too. */
 static void print_looks(const run_log *log, const deck *d)
 {
     const schema_instance *output = schema_get(&d->groups, "output", 0);
-    const bool left_out = d->history_interval > 0.0 && !schema_given(output, "history_interval");
-    if (!log->verbose && !left_out) return;
+    const bool rows = d->history_interval > 0.0 && !schema_given(output, "history_interval");
+    const bool peaks = d->peak_every > LOOKS_FEW_STEPS && !schema_given(output, "peak_every");
+    if (!log->verbose && !rows && !peaks) return;
     if (d->history_interval > 0.0)
-        (void)fprintf(log->out, "looks      rows of /history %.4g s apart, for peaks ", d->history_interval);
+        (void)fprintf(log->out, "looks      rows of /history %.4g s apart%s, for peaks ", d->history_interval,
+                      rows ? " by size ('history_interval' sets it)" : "");
     else
         (void)fprintf(log->out, "looks      a row of /history each step, for peaks ");
     if (d->peak_every > 0)
-        (void)fprintf(log->out, "every %lld steps", (long long)d->peak_every);
+        (void)fprintf(log->out, "every %lld steps%s\n", (long long)d->peak_every,
+                      peaks ? " by size ('peak_every' sets it)" : "");
     else
-        (void)fprintf(log->out, "never");
-    (void)fprintf(log->out, "%s\n", left_out ? ", by size; 'history_interval' and 'peak_every' in &output set it" : "");
+        (void)fprintf(log->out, "never\n");
 }
 
 /* All that is set up by now: a run takes no more, but for what HDF5 buffers. */

@@ -10,7 +10,6 @@
 
 enum {
     FEW_NODES = 5000,     /* of which fewer take no time that matters */
-    FEW_STEPS = 4,        /* from look to look at their peaks */
     ROW_EVALUATIONS = 64, /* of the forces, from row to row, at most */
     ROWS_A_LOOK = 4       /* of larger bodies */
 };
@@ -33,7 +32,7 @@ double looks_row_interval(dem_method method, double nodes, double step)
 
 dem_index looks_peak_every(dem_method method, double nodes)
 {
-    return nodes < FEW_NODES ? FEW_STEPS : ROWS_A_LOOK * steps_a_row(method);
+    return nodes < FEW_NODES ? LOOKS_FEW_STEPS : ROWS_A_LOOK * steps_a_row(method);
 }
 
 /* No method takes steps that are much longer, whatever the deck allows. */

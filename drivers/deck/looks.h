@@ -5,6 +5,8 @@
 
 #include "deck.h"
 
+enum { LOOKS_FEW_STEPS = 4 }; /* from look to look at the peaks of bodies of few nodes */
+
 /** Time between rows of the history, s, at least; 0: every accepted step has one.
  *  \param step  s, the longest of the run; infinite where it is unknown */
 double looks_row_interval(dem_method method, double nodes, double step);

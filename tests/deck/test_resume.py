@@ -182,13 +182,14 @@ class Cuts(Case):
 
     def test_a_large_body_has_rows_by_its_size(self):
         self.put(LARGE)
-        self.assertRegex(self.call(0, outdir="whole"), "\nlooks      rows of /history .* s apart, for peaks every 256 steps")
+        self.assertRegex(self.call(0, outdir="whole"), "\nlooks      rows of /history .* s apart by size.*, for peaks every 256 steps by size")
         self.call(0, "--set", "run.t_end=1.3e-3", outdir="longer")
         self.call(0, outdir="longer")
         self.expect_same("longer")
         self.assertGreater(self.go_on("cut", *AT_ONCE), 5)
         self.expect_same("cut")
-        self.assertNotIn("\nlooks ", self.call(0, "--set", "output.history_interval=0", outdir="dense"))
+        self.assertIn("\nlooks      a row of /history each step, for peaks every 256 steps by size",
+                      self.call(0, "--set", "output.history_interval=0", outdir="dense"))
         dense, whole = self.result("dense"), self.result("whole")
         self.assertEqual((dense["history_interval"], dense["peak_every"], whole["peak_every"]), (0, 256, 256))
         self.assertEqual(dense["rebound"], whole["rebound"])
