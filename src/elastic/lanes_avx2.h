@@ -203,32 +203,4 @@ static inline lanes lanes_where(unsigned chosen, lanes a, lanes b)
 
 #undef EACH
 
-/** a where `where` is not 0, else 0. */
-static inline lanes lanes_unless_zero(lanes where, lanes a)
-{
-    const __m256d zero = _mm256_setzero_pd();
-    return (lanes){_mm256_and_pd(_mm256_cmp_pd(where.low, zero, _CMP_NEQ_UQ), a.low),
-                   _mm256_and_pd(_mm256_cmp_pd(where.high, zero, _CMP_NEQ_UQ), a.high)};
-}
-
-/* The upper half of a and the lower one of b. */
-INLINE __m256d inner_halves(__m256d a, __m256d b)
-{
-    return _mm256_permute2f128_pd(a, b, 0x21);
-}
-
-/** Of lanes in the order of memory the ones before: the last of `before`, and the first seven of a. */
-INLINE lanes lanes_behind(lanes before, lanes a)
-{
-    return (lanes){_mm256_shuffle_pd(inner_halves(before.high, a.low), a.low, 0x5),
-                   _mm256_shuffle_pd(inner_halves(a.low, a.high), a.high, 0x5)};
-}
-
-/** And the ones behind: the last seven of a, and the first of `after`. */
-INLINE lanes lanes_ahead(lanes a, lanes after)
-{
-    return (lanes){_mm256_shuffle_pd(a.low, inner_halves(a.low, a.high), 0x5),
-                   _mm256_shuffle_pd(a.high, inner_halves(a.high, after.low), 0x5)};
-}
-
 #endif

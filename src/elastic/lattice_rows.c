@@ -3,7 +3,6 @@
  * left or up right of its lower node, and so every node has a lattice row and a column. What contradicts this, a node
  * with two columns, neighbours in another order, or a spring or triangle that is not between the nodes of one upright
  * or overturned triangle, says that the body has no lattice rows. */
-#define _XOPEN_SOURCE 700 /* M_PI */
 #include "elastic/lattice_rows.h"
 
 #include <math.h>
@@ -12,9 +11,11 @@
 #include "base/grow.h"
 #include "base/status.h"
 
+static const double sixth_turn = 1.0471975511965977; /* pi/3 */
+
 enum {
     NO_NODE = -1,
-    MOST_PLACES = 2, /* for each node */
+    MOST_PLACES = 2, /* for each node: where more of them are empty blocks of the layout take no longer */
     MOST_BYTES = 16  /* of sets, for each node */
 };
 
@@ -57,14 +58,14 @@ static double find_axis(const finder *f, dem_index root)
     const double axis = direction_of(f, root, s->neighbour[first]);
     if (n == 1) return axis;
     const double turn = direction_of(f, root, s->neighbour[first + 1]) - axis;
-    return sin(turn) < 0.0 ? axis - 2.0 * M_PI / 3.0 : axis;
+    return sin(turn) < 0.0 ? axis - 2.0 * sixth_turn : axis;
 }
 
 /* Which neighbour of its lower node the upper one is. */
 static neighbour upper_of(const finder *f, double axis, dem_index lower, dem_index upper)
 {
-    const double sixth = (direction_of(f, lower, upper) - axis) / (M_PI / 3.0);
-    switch ((int)lround(sixth < -0.5 ? sixth + 6.0 : sixth)) {
+    const double sixth = (direction_of(f, lower, upper) - axis) / sixth_turn;
+    switch ((int)lround(sixth - 6.0 * floor((sixth + 0.5) / 6.0))) { /* 0 to 5, or 6 by rounding */
     case 0:
     case 6:
         return RIGHT;
@@ -220,9 +221,9 @@ static dem_status lay_rows(finder *f)
                                     .block = (int32_t)out->n_blocks};
         out->n_blocks += out->row[r].n_blocks;
         if (out->row[r].n_stored > out->most_stored) out->most_stored = out->row[r].n_stored;
-        if (LAYOUT_LANES * out->n_blocks > MOST_PLACES * (f->n + LAYOUT_LANES * out->n_rows)) f->fits = false;
         TRY(add_segments(f, r));
     }
+    if (LAYOUT_LANES * out->n_blocks > MOST_PLACES * f->n) f->fits = false;
     return DEM_OK;
 }
 

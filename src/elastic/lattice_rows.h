@@ -64,8 +64,9 @@ typedef struct lattice_rows_input {
     const double *inverse_mass; /* [n_nodes] 1/kg */
 } lattice_rows_input;
 
-/** Compiles. Where a body is not made of equilateral triangles in lattice rows one above the other, or most places have
- *  no node, there are no lattice rows: n_rows is 0. Free with lattice_rows_destroy().  \return DEM_ERROR_MEMORY */
+/** Compiles. Where a body is not made of equilateral triangles in lattice rows one above the other, or more than
+ *  half of the places have no node, there are no lattice rows: n_rows is 0. Free with lattice_rows_destroy().
+ *  \return DEM_ERROR_MEMORY */
 dem_status lattice_rows_create(lattice_rows *out, const lattice_rows_input *from);
 void lattice_rows_destroy(lattice_rows *r);
 

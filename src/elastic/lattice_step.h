@@ -6,7 +6,7 @@
 #include "base/vec2.h"
 #include "elastic/lattice_rows.h"
 
-/** An array for each component, from the first stored place of a lattice row on. A block before and one behind may be
+/** An array for each component, from the first stored place of a lattice row on. A block behind the last one may be
  *  read, too. */
 typedef struct lattice_planes {
     double *x[2], *v[2], *a[2];
@@ -28,6 +28,8 @@ typedef struct lattice_step {
  *  filled. The bits are those of a fused step of a sweep (elastic/sweep.h). */
 typedef void lattice_step_function(lattice_step *s);
 
-lattice_step_function lattice_step_portable, lattice_step_avx2, lattice_step_avx512, lattice_step_avx512_divider;
+/** Of instruction sets by which lattice rows take less time than blocks of the layout (docs/performance.md, Waves of
+ *  lattice rows). */
+lattice_step_function lattice_step_portable, lattice_step_avx512_divider;
 
 #endif

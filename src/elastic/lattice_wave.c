@@ -18,7 +18,7 @@
 
 enum {
     PLANES = 8,                         /* of lattice_planes */
-    PAD = LAYOUT_LANES,                 /* places before and behind those of a lattice row */
+    PAD = LAYOUT_LANES,                 /* places behind those of a lattice row */
     CACHE = 1200000,                    /* bytes of slots; what the second cache does not hold the third one has */
     FEWEST_STEPS = 4,                   /* even if they take more, */
     LEAST_SHARE = 4 * LATTICE_WAVE_MOST /* lattice rows of a share */
@@ -107,7 +107,7 @@ static void take_in(const lattice_pass *p, dem_index row)
     const lattice_row *of = &r->row[row];
     const lattice_wave_steps *s = p->steps;
     const lattice_planes *to = slot_of(p, row);
-    dem_index empty = -PAD;
+    dem_index empty = 0;
     for (int32_t k = 0; k < of->n_segments; k++) {
         const lattice_segment *g = &r->segment[of->segment + k];
         const dem_index at = vec2_row(g->node);
@@ -229,6 +229,11 @@ bool lattice_wave_run(lattice_wave *w, lattice_wave_steps *steps)
     return holds;
 }
 
+bool lattice_wave_pays(const lattice_wave *w)
+{
+    return w->n_shares >= team_threads(w->team);
+}
+
 int lattice_wave_most(const lattice_wave *w)
 {
     return w->most;
@@ -239,14 +244,14 @@ int lattice_wave_most(const lattice_wave *w)
 /* Arrays of a slot do not begin at the same place of a page. */
 static size_t width_of(const lattice_rows *r)
 {
-    const size_t width = LAYOUT_LANES * (size_t)r->most_stored + 2 * PAD;
+    const size_t width = LAYOUT_LANES * (size_t)r->most_stored + PAD;
     return width % 64 == 0 ? width + PAD : width;
 }
 
 static void lay_out(lattice_wave *w, int n)
 {
     for (int k = 0; k < n; k++) {
-        double *at = w->numbers + (size_t)k * PLANES * w->width + PAD;
+        double *at = w->numbers + (size_t)k * PLANES * w->width;
         double **const planes[] = {w->slots[k].x, w->slots[k].v, w->slots[k].a, w->slots[k].below};
         for (int c = 0; c < PLANES; c++) planes[c / 2][c % 2] = at + (size_t)c * w->width;
     }

@@ -30,6 +30,9 @@ dem_status lattice_wave_create(lattice_wave **out, const lattice_rows_input *fro
                                team *t);
 void lattice_wave_free(lattice_wave *w);
 
+/** Whether each thread of the team has a share. */
+bool lattice_wave_pays(const lattice_wave *w);
+
 /** How many steps a wave takes at most: the lattice rows that are on their way stay in the second cache. */
 int lattice_wave_most(const lattice_wave *w);
 

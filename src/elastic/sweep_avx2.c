@@ -6,6 +6,4 @@
 #define SWEEP        sweep_avx2
 #define SWEEP_GUARD  sweep_guard_avx2
 #define SWEEP_STRAIN sweep_strain_avx2
-#define LATTICE_STEP lattice_step_avx2
-#include "elastic/lattice_step_body.h"
 #include "elastic/sweep_body.h"

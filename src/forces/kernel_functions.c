@@ -17,8 +17,6 @@
 #define sweep_strain_avx2           sweep_strain_portable
 #define sweep_strain_avx512         sweep_strain_portable
 #define sweep_strain_avx512_divider sweep_strain_portable
-#define lattice_step_avx2           lattice_step_portable
-#define lattice_step_avx512         lattice_step_portable
 #define lattice_step_avx512_divider lattice_step_portable
 #endif
 
@@ -27,9 +25,8 @@ static const kernel_functions rows[] = {
     [DEM_KERNEL_AUTO] = {"auto", NULL, NULL, NULL, NULL, NULL},
     [DEM_KERNEL_PORTABLE] = {"portable", sweep_portable, sweep_guard_portable, sweep_strain_portable,
                              lattice_step_portable, &array_ops_portable},
-    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2, sweep_guard_avx2, sweep_strain_avx2, lattice_step_avx2, &array_ops_avx2},
-    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, sweep_guard_avx512, sweep_strain_avx512, lattice_step_avx512,
-                           &array_ops_avx512},
+    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2, sweep_guard_avx2, sweep_strain_avx2, NULL, &array_ops_avx2},
+    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, sweep_guard_avx512, sweep_strain_avx512, NULL, &array_ops_avx512},
 };
 static const kernel_functions avx512_divider = {"avx512",
                                                 sweep_avx512_divider,

@@ -12,7 +12,7 @@ typedef struct kernel_functions {
     sweep_function *sweep;
     sweep_guard_function *sweep_guard;
     sweep_strain_function *sweep_strain;
-    lattice_step_function *lattice_step;
+    lattice_step_function *lattice_step; /* NULL: of lattice rows, by which it takes no less time */
     const array_ops *ops;
 } kernel_functions;
 

@@ -316,15 +316,16 @@ static lattice_wave *create_rows(const kernel *k)
 {
     const dem_model *m = k->model;
     const lattice_rows_input from = {&m->springs, &m->triangles, m->lattice.x, m->inverse_mass};
+    lattice_step_function *step = kernel_functions_of(k->kind)->lattice_step;
     lattice_wave *rows = NULL;
-    if (m->layout.stiff || m->layout.coupled || m->layout.damped) return NULL;
-    return lattice_wave_create(&rows, &from, kernel_functions_of(k->kind)->lattice_step, k->team) == DEM_OK ? rows
-                                                                                                            : NULL;
+    if (step == NULL || m->layout.stiff || m->layout.coupled || m->layout.damped) return NULL;
+    return lattice_wave_create(&rows, &from, step, k->team) == DEM_OK ? rows : NULL;
 }
 
 bool step_wave_pays(const step_wave *w)
 {
-    return w->rows != NULL || w->kernel->model->layout.n_nodes >= LEAST_NODES;
+    const bool is_large = w->kernel->model->layout.n_nodes >= LEAST_NODES;
+    return is_large || (w->rows != NULL && lattice_wave_pays(w->rows));
 }
 
 int step_wave_most(const step_wave *w)

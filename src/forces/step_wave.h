@@ -10,7 +10,7 @@
 enum { STEP_WAVE_MOST = 16 };
 
 /** Steps of one length. Each begins where the one before ends. The arrays at the ends of steps may be the same at every
- *  other end, but none of them those at the start. */
+ *  other end, but none of them those at the start. By lattice rows those at the last end alone are filled. */
 typedef struct step_wave_steps {
     int n;                                 /* 1 to STEP_WAVE_MOST */
     sweep_fused_step step[STEP_WAVE_MOST]; /* of the nodes */

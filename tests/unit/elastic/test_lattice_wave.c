@@ -36,7 +36,7 @@ static dem_lattice make_squares(void)
 static dem_lattice make_pointed(void)
 {
     const dem_material material = law_of(0);
-    dem_lattice lattice = make_solid(0.05, 0.05, &material);
+    dem_lattice lattice = make_solid(0.25, 0.25, &material);
     CLEANUP(free_memory) bool *keep = malloc((size_t)lattice.n_nodes * sizeof *keep);
     assert_non_null(keep);
     for (dem_index i = 0; i < lattice.n_nodes; i++)
@@ -50,8 +50,13 @@ TEST(bodies_of_equilateral_triangles_have_lattice_rows)
 {
     const dem_material material = law_of(0);
     assert_int_equal(count_rows(make_solid(0.1, 0.0868, &material)), 11 + 2); /* ten heights of triangles of 10 mm */
-    assert_int_equal(count_rows(make_pointed()), count_rows(make_solid(0.05, 0.05, &material)));
+    assert_int_equal(count_rows(make_pointed()), count_rows(make_solid(0.25, 0.25, &material)));
     assert_true(count_rows(make_bodies()) > 3);
+    for (int k = 0; k < 24; k++) {
+        dem_lattice turned = make_pointed();
+        dem_lattice_move(&turned, 0.26 * k, (const double[2]){0.0, 0.0});
+        assert_true(count_rows(turned) > 0);
+    }
 }
 
 TEST(other_bodies_have_none)
@@ -59,6 +64,7 @@ TEST(other_bodies_have_none)
     const dem_material material = law_of(0);
     assert_int_equal(count_rows(make_squares()), 0);
     assert_int_equal(count_rows(make_shuffled(&material)), 0);
+    assert_int_equal(count_rows(make_solid(0.01, 2.0, &material)), 0); /* nearly all places are empty */
 }
 
 static int most_steps(double width)
