@@ -89,7 +89,9 @@ static domain_shares shares_of(const ranks *r, const dem_model *whole, const dom
     domain_shares shares = {
         .n_ranks = r->size, .owner = s->owner, .is_common = is_common, .n_rings = s->n_rings, .most_ghosts = INT64_MAX};
     if (s->n_rings > 0) return shares;
-    shares.n_rings = n >= use.least_nodes * r->size && may_have_rings(&whole->lattice) ? use.most : 1;
+    const bool is_slack = !whole->layout.stiff && !whole->layout.coupled;
+    const dem_index least = (is_slack ? use.least_slack : use.least_nodes) * r->size;
+    shares.n_rings = n >= least && may_have_rings(&whole->lattice) ? use.most : 1;
     shares.least_rings = use.least;
     shares.most_ghosts = n / use.part;
     return shares;
@@ -100,9 +102,10 @@ static domain_shares shares_of(const ranks *r, const dem_model *whole, const dom
 static dem_status find_lists(whole_lattice *w, const ranks *r, const domain_model_shares *s)
 {
     enum { PAIR_RINGS = 3, LEAST_STEPS = 4, MOST_STEPS = 8 };
-    const ring_use both[] = {ring_use_of_steps(LEAST_STEPS, MOST_STEPS), ring_use_of_stages(PAIR_RINGS)};
+    ring_use both[] = {ring_use_of_steps(LEAST_STEPS, MOST_STEPS), ring_use_of_stages(PAIR_RINGS)};
     const ring_use *uses = s->use.most > 0 ? &s->use : both;
     const int n = s->use.most > 0 ? 1 : 2;
+    both[0].least_slack = both[0].least_nodes;
     for (int k = 0; k < n && w->lists.rings.n_rings <= 1; k++) {
         domain_lists_free(&w->lists);
         w->shares = shares_of(r, w->model, s, uses[k], w->is_common);
