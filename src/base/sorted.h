@@ -48,8 +48,8 @@ static inline dem_index sorted_merge(dem_index *out, const dem_index *a, dem_ind
     return n;
 }
 
-/** Where a number is in a list [n], which has each number once; -1: nowhere. */
-static inline dem_index sorted_find(const dem_index *list, dem_index n, dem_index number)
+/** The place in a list [n] of the first number that is not below `number`; n: there is none. */
+static inline dem_index sorted_first(const dem_index *list, dem_index n, dem_index number)
 {
     dem_index low = 0, high = n;
     while (low < high) {
@@ -59,7 +59,14 @@ static inline dem_index sorted_find(const dem_index *list, dem_index n, dem_inde
         else
             high = middle;
     }
-    return low < n && list[low] == number ? low : -1;
+    return low;
+}
+
+/** Where a number is in a list [n], which has each number once; -1: nowhere. */
+static inline dem_index sorted_find(const dem_index *list, dem_index n, dem_index number)
+{
+    const dem_index first = sorted_first(list, n, number);
+    return first < n && list[first] == number ? first : -1;
 }
 
 #endif

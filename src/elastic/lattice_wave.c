@@ -13,6 +13,7 @@
 #include <stdlib.h>
 
 #include "base/aligned.h"
+#include "base/sorted.h"
 #include "base/status.h"
 #include "elastic/sweep.h"
 
@@ -87,20 +88,6 @@ static void merge(double *pairs, double *const planes[2], dem_index place, dem_i
     }
 }
 
-/* The first watched node that is not below `node`. */
-static dem_index find_watched(const lattice_wave_steps *s, dem_index node)
-{
-    dem_index low = 0, high = s->n_watched;
-    while (low < high) {
-        const dem_index middle = (low + high) / 2;
-        if (s->watched[middle] < node)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 static void take_in(const lattice_pass *p, dem_index row)
 {
     const lattice_rows *r = &p->wave->rows;
@@ -145,7 +132,8 @@ static double highest_square(const lattice_pass *p, dem_index row, double square
     const lattice_planes *planes = slot_of(p, row);
     for (int32_t k = 0; k < of->n_segments && s->n_watched > 0; k++) {
         const lattice_segment *g = &r->segment[of->segment + k];
-        for (dem_index w = find_watched(s, g->node); w < s->n_watched && s->watched[w] < g->node + g->n; w++) {
+        for (dem_index w = sorted_first(s->watched, s->n_watched, g->node);
+             w < s->n_watched && s->watched[w] < g->node + g->n; w++) {
             const dem_index at = g->place + s->watched[w] - g->node;
             square = fmax(square, planes->v[0][at] * planes->v[0][at] + planes->v[1][at] * planes->v[1][at]);
         }

@@ -18,6 +18,7 @@
 #include <stdlib.h>
 
 #include "base/aligned.h"
+#include "base/sorted.h"
 #include "base/status.h"
 #include "elastic/lattice_wave.h"
 #include "forces/kernel_functions.h"
@@ -115,20 +116,6 @@ static void watch(wave_pass *p, int step, dem_index end)
     }
 }
 
-/* The first watched node that is not below `node`. */
-static dem_index find_watched(const step_wave_steps *s, dem_index node)
-{
-    dem_index low = 0, high = s->n_watched;
-    while (low < high) {
-        const dem_index middle = (low + high) / 2;
-        if (s->watched[middle] < node)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 static bool guard_acts(const wave_pass *p, dem_index first, dem_index last)
 {
     for (dem_index block = first; block < last; block++)
@@ -145,7 +132,7 @@ static void begin_step(wave_pass *p, int step)
     const dem_index from = first_of(p, step), low = p->rise > 0 ? from - l->ahead : from;
     const dem_index high = smaller(from + l->ahead, drift_end(p, step));
     kernel_drift(p->wave->kernel, &p->steps->step[step], LAYOUT_LANES * low, LAYOUT_LANES * high);
-    p->seen[step] = find_watched(p->steps, LAYOUT_LANES * from);
+    p->seen[step] = sorted_first(p->steps->watched, p->steps->n_watched, LAYOUT_LANES * from);
 }
 
 /* Nodes behind the last block are drifted when they have taken the step before. */
