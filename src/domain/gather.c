@@ -48,7 +48,7 @@ static void send_to_root(const collection *c, bool counts)
 
 static bool owns(const gather_items *items, dem_index i)
 {
-    return items->is_own[items->nodes != NULL ? domain_lowest(items->nodes + items->arity * i, items->arity) : i] != 0;
+    return items->is_own[items->ends != NULL ? domain_lowest(items->ends + 2 * i, 2) : i] != 0;
 }
 
 /* \param end  of the piece, by numbers of the whole  \return behind its last item here */

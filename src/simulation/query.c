@@ -337,10 +337,6 @@ dem_status dem_simulation_broken(const dem_simulation *s, unsigned char *triangl
 {
     const element_state *elements;
     TRY(check_pointers("dem_simulation_broken", s, s));
-    if (s->leads != NULL) {
-        TRY(ask_field(s, SHARED_FIELD_BROKEN_TRIANGLES, triangle));
-        return ask_field(s, SHARED_FIELD_BROKEN_SPRINGS, spring);
-    }
     TRY(find_elements(s, &elements));
     const dem_lattice *l = &s->model->lattice;
     for (dem_index k = 0; k < l->n_triangles && triangle != NULL; k++)
@@ -354,10 +350,6 @@ dem_status dem_simulation_damage(const dem_simulation *s, double *triangle, doub
 {
     const element_state *elements;
     TRY(check_pointers("dem_simulation_damage", s, s));
-    if (s->leads != NULL) {
-        TRY(ask_field(s, SHARED_FIELD_TRIANGLE_DAMAGE, triangle));
-        return ask_field(s, SHARED_FIELD_NODE_DAMAGE, node);
-    }
     TRY(find_elements(s, &elements));
     const dem_lattice *l = &s->model->lattice;
     for (dem_index t = 0; t < l->n_triangles && triangle != NULL; t++) triangle[t] = element_state_damage(elements, t);

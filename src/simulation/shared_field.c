@@ -22,28 +22,8 @@ static dem_status fill_forces(const dem_simulation *s, void *out)
     return dem_simulation_forces(s, out);
 }
 
-static dem_status fill_broken_triangles(const dem_simulation *s, void *out)
-{
-    return dem_simulation_broken(s, out, NULL);
-}
-
-static dem_status fill_broken_springs(const dem_simulation *s, void *out)
-{
-    return dem_simulation_broken(s, NULL, out);
-}
-
-static dem_status fill_triangle_damage(const dem_simulation *s, void *out)
-{
-    return dem_simulation_damage(s, out, NULL);
-}
-
-static dem_status fill_node_damage(const dem_simulation *s, void *out)
-{
-    return dem_simulation_damage(s, NULL, out);
-}
-
 /* What a field has a row of. */
-enum of { NODES, SPRINGS, TRIANGLES };
+enum of { NODES, SPRINGS };
 
 static const struct field {
     enum of of;
@@ -53,16 +33,11 @@ static const struct field {
     [SHARED_FIELD_STRESS] = {NODES, 3 * sizeof(double), fill_stress},
     [SHARED_FIELD_STRAINS] = {SPRINGS, sizeof(double), fill_strains},
     [SHARED_FIELD_FORCES] = {SPRINGS, sizeof(double), fill_forces},
-    [SHARED_FIELD_BROKEN_TRIANGLES] = {TRIANGLES, 1, fill_broken_triangles},
-    [SHARED_FIELD_BROKEN_SPRINGS] = {SPRINGS, 1, fill_broken_springs},
-    [SHARED_FIELD_TRIANGLE_DAMAGE] = {TRIANGLES, sizeof(double), fill_triangle_damage},
-    [SHARED_FIELD_NODE_DAMAGE] = {NODES, sizeof(double), fill_node_damage},
 };
 
 static gather_items items_of(const dem_model *m, enum of of)
 {
-    if (of == NODES) return gather_nodes(m->domain);
-    return of == SPRINGS ? gather_springs(m->domain, &m->lattice) : gather_triangles(m->domain, &m->lattice);
+    return of == NODES ? gather_nodes(m->domain) : gather_springs(m->domain, &m->lattice);
 }
 
 static dem_status allocate(void **rows, size_t size)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fields, which are numbers of all nodes, springs or triangles, where ranks share a model: each rank computes those of
- * what it owns, and rank 0 gets all of them, in the order of the whole lattice. */
+/* Fields, which are numbers of all nodes or springs, where ranks share a model: each rank computes those of what it
+ * owns, and rank 0 gets all of them, in the order of the whole lattice. What is broken each rank knows of all
+ * (simulation/shared_breaks.h). */
 #ifndef DEM_SIMULATION_SHARED_FIELD_H
 #define DEM_SIMULATION_SHARED_FIELD_H
 
@@ -8,12 +9,8 @@
 
 typedef enum shared_field_kind {
     SHARED_FIELD_STRESS,  /* [nodes][3] doubles */
-    SHARED_FIELD_STRAINS, /* [springs] doubles, as the next ones are */
-    SHARED_FIELD_FORCES,
-    SHARED_FIELD_BROKEN_TRIANGLES, /* [triangles] bytes */
-    SHARED_FIELD_BROKEN_SPRINGS,   /* [springs] bytes */
-    SHARED_FIELD_TRIANGLE_DAMAGE,  /* [triangles] doubles */
-    SHARED_FIELD_NODE_DAMAGE       /* [nodes] doubles */
+    SHARED_FIELD_STRAINS, /* [springs] doubles, as the next one is */
+    SHARED_FIELD_FORCES
 } shared_field_kind;
 
 /** Fills a field with what the getter of this name has. Collective.
