@@ -7,28 +7,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "bench.h"
+#include "plate.h"
 #include "ask.h"
 #include "memory.h"
-
-static const double spacing = 1e-3;
-
-static dem_lattice make_lattice(double nodes, double height)
-{
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .guard = 0.02};
-    const double columns = sqrt(sqrt(3.0) * nodes), up[2] = {0.0, height}, speed[2] = {0.0, -1.0};
-    dem_lattice l = dem_lattice_empty();
-    ask(dem_lattice_rectangle(&l, columns * spacing, 0.5 * columns * spacing, spacing));
-    ask(dem_lattice_assemble(&l, &rubber));
-    dem_lattice_move(&l, 0.0, up);
-    ask(dem_lattice_launch(&l, speed));
-    return l;
-}
 
 /* The line of the system's account of this process that begins so, in kB. */
 static double account(const char *name)
@@ -53,7 +34,7 @@ int main(int argc, char **argv)
     dem_model *model;
     dem_simulation *simulation;
     ask(dem_method_find(&options.method, argv[2]));
-    dem_lattice l = make_lattice(atof(argv[1]), atof(argv[3]));
+    dem_lattice l = plate_make_rubber(atof(argv[1]), atof(argv[3]));
     const double n = (double)l.n_nodes;
     ask(dem_model_create(&model, &l, &ground, 1));
     dem_lattice_free(&l);

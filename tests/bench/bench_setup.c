@@ -9,7 +9,7 @@
 
 #include <dem/trajectory.h>
 
-#include "bench.h"
+#include "plate.h"
 #include "ask.h"
 #include "memory.h"
 
@@ -29,30 +29,13 @@ static double lap(double *start)
     return spent;
 }
 
-static dem_lattice make_lattice(double nodes)
-{
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .guard = 0.02};
-    const double spacing = 1e-3, columns = sqrt(sqrt(3.0) * nodes), up[2] = {0.0, 1e-3}, speed[2] = {0.0, -1.0};
-    dem_lattice l = dem_lattice_empty();
-    ask(dem_lattice_rectangle(&l, columns * spacing, 0.5 * columns * spacing, spacing));
-    ask(dem_lattice_assemble(&l, &rubber));
-    dem_lattice_move(&l, 0.0, up);
-    ask(dem_lattice_launch(&l, speed));
-    return l;
-}
-
 static body set_up(double nodes)
 {
     const double points[4] = {-100.0, 0.0, 100.0, 0.0};
     const dem_obstacle ground = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points};
     const dem_options options = dem_options_default();
     double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
-    dem_lattice l = make_lattice(nodes);
+    dem_lattice l = plate_make_rubber(nodes, 1e-3);
     body b = {.n_nodes = l.n_nodes, .spent = {lap(&start)}};
     ask(dem_model_create(&b.model, &l, &ground, 1));
     dem_lattice_free(&l);

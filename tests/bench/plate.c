@@ -177,3 +177,20 @@ void plate_write_state(const dem_simulation *simulation, const char *path)
                       state.v[2 * i + 1]);
     must(fclose(file) == 0, path);
 }
+
+dem_lattice plate_make_rubber(double nodes, double height)
+{
+    const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                 .youngs_modulus = youngs_modulus,
+                                 .poissons_ratio = 1.0 / 3.0,
+                                 .density = density,
+                                 .thickness = 1.0,
+                                 .guard = 0.02};
+    const double spacing = 1e-3, columns = sqrt(sqrt(3.0) * nodes), up[2] = {0.0, height}, speed[2] = {0.0, -1.0};
+    dem_lattice l = dem_lattice_empty();
+    ask(dem_lattice_rectangle(&l, columns * spacing, 0.5 * columns * spacing, spacing));
+    ask(dem_lattice_assemble(&l, &rubber));
+    dem_lattice_move(&l, 0.0, up);
+    ask(dem_lattice_launch(&l, speed));
+    return l;
+}

@@ -15,6 +15,10 @@ dem_lattice plate_make(dem_index columns, dem_index rows, double spacing);
 /** Adds the triangles, so that the nodes on their boundary may touch. */
 void plate_triangulate(dem_lattice *l, dem_index columns);
 
+/** A rectangle of rubber of about so many nodes at 1 mm, twice as wide as high, with guarded triangles, `height` m
+ *  above 0, which comes down at 1 m/s. */
+dem_lattice plate_make_rubber(double nodes, double height);
+
 /** Two such plates with triangles, of about so many nodes each: one above the other, shifted by 0.37 spacings and with
  *  `gap` spacings between them, which run towards each other with this speed each, m/s. */
 dem_lattice plate_make_two(dem_index nodes, double gap, double spacing, double speed);
