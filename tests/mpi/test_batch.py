@@ -195,6 +195,16 @@ class Runs(unittest.TestCase):
         changing = ("output", "set", "wall_start", "wall_seconds")
         return {key: value for key, value in found.items() if key not in changing}
 
+    def check_going_on(self, deck, ends, key):
+        """3 ranks, none and 2 go on in turn, to what one process comes to, with something of this kind at each end."""
+        self.assertEqual(self.run_on(0, "one", deck=deck)[0], 0)
+        for k, n in enumerate((3, 0, 2)):
+            code, log, errors = self.run_on(n, "parts", "--set", f"run.t_end={ends[k]}", deck=deck)
+            self.assertEqual(code, 0, errors)
+            self.assertEqual("resumed" in log, k > 0)
+            self.assertGreater(self.result("parts")[key], 0)
+        self.assert_same("one", "parts")
+
     def assert_same(self, one, other):
         paths = [str(self.folder / outdir / "free.vtkhdf") for outdir in (one, other)]
         done = subprocess.run([sys.executable, COMPARE, *paths], capture_output=True, text=True, check=False)
@@ -310,26 +320,12 @@ class Dropped(Runs):
 
 class Touching(Runs):
     def test_any_number_of_ranks_goes_on_with_surfaces_that_push(self):
-        self.assertEqual(self.run_on(0, "one", deck="touching.nml")[0], 0)
-        for k, n in enumerate((3, 0, 2)):
-            settings = ("--set", f"run.t_end={(k + 2) * 3e-4}")
-            code, log, errors = self.run_on(n, "parts", *settings, deck="touching.nml")
-            self.assertEqual(code, 0, errors)
-            self.assertEqual("resumed" in log, k > 0)
-            self.assertGreater(self.result("parts")["pairs"], 0)
-        self.assert_same("one", "parts")
+        self.check_going_on("touching.nml", [2 * 3e-4, 3 * 3e-4, 4 * 3e-4], "pairs")
 
 
 class Breaking(Runs):
     def test_any_number_of_ranks_goes_on_with_what_is_broken(self):
-        self.assertEqual(self.run_on(0, "one", deck="breaking.nml")[0], 0)
-        for k, n in enumerate((3, 0, 2)):
-            settings = ("--set", f"run.t_end={(k + 8) * 1e-4}")
-            code, log, errors = self.run_on(n, "parts", *settings, deck="breaking.nml")
-            self.assertEqual(code, 0, errors)
-            self.assertEqual("resumed" in log, k > 0)
-            self.assertGreater(self.result("parts")["broken_triangles"], 0)
-        self.assert_same("one", "parts")
+        self.check_going_on("breaking.nml", [8e-4, 9e-4, 1e-3], "broken_triangles")
 
 
 class LongerTouching(Runs):
