@@ -147,6 +147,24 @@ TEST(steps_at_once_are_those_in_turn)
     }
 }
 
+/* Nothing acts but springs and guards, if any, and there are no lattice rows. */
+static dem_lattice make_squares(double height, int laws)
+{
+    const dem_material material = law_of(laws);
+    dem_lattice lattice = dem_lattice_empty();
+    assert_ok(dem_lattice_squares(&lattice, 0.05, height, 1e-2));
+    assert_ok(dem_lattice_assemble_squares(&lattice, &material, 0.5));
+    return lattice;
+}
+
+TEST(blocks_of_bodies_without_lattice_rows_take_steps_of_the_same_bits)
+{
+    for (int laws = 0; laws < 3; laws += 2) {
+        CLEANUP(dem_lattice_free) dem_lattice strip = make_squares(12.0, laws);
+        check_lattice(&strip, 0.05, false);
+    }
+}
+
 /* Widths at which all numbers of nodes behind the last block come up. */
 TEST(nodes_behind_the_last_block_take_part)
 {
@@ -159,10 +177,11 @@ TEST(nodes_behind_the_last_block_take_part)
 }
 
 /* Where the guard acts, or something is not finite, at some node of the strip, be it at the start or later. */
-static bool holds_with(int laws, double x_by, double v_by, double place)
+static bool holds_with(int kind, double x_by, double v_by, double place)
 {
-    const dem_material material = law_of(laws);
-    CLEANUP(dem_lattice_free) dem_lattice strip = make_solid(0.06, 10.0, &material);
+    const dem_material material = law_of(kind % 2);
+    CLEANUP(dem_lattice_free)
+    dem_lattice strip = kind < 2 ? make_solid(0.06, 10.0, &material) : make_squares(12.0, 0);
     CLEANUP(free_scene) scene s = make_scene(&strip, 0.01);
     CLEANUP(free_team) team *t = team_create(3, 1);
     CLEANUP(kernel_destroy) kernel k;
@@ -186,12 +205,12 @@ static bool holds_with(int laws, double x_by, double v_by, double place)
 
 TEST(the_guard_and_overflows_are_found)
 {
-    for (int laws = 0; laws < 2; laws++) {
-        assert_true(holds_with(laws, 0.0, 0.0, 0.5));
+    for (int kind = 0; kind < 3; kind++) { /* by lattice rows, and by blocks with an area term and without */
+        assert_true(holds_with(kind, 0.0, 0.0, 0.5));
         for (int k = 0; k <= 60; k++) {
-            assert_false(holds_with(laws, 0.0085, 0.0, k / 60.0));
-            assert_false(holds_with(laws, 0.0, 0.0085 / (4.0 * h), k / 60.0));
-            assert_false(holds_with(laws, 0.0, (double)NAN, k / 60.0));
+            assert_false(holds_with(kind, 0.0085, 0.0, k / 60.0));
+            assert_false(holds_with(kind, 0.0, 0.0085 / (4.0 * h), k / 60.0));
+            assert_false(holds_with(kind, 0.0, (double)NAN, k / 60.0));
         }
     }
 }
