@@ -52,7 +52,7 @@ class Census:
 
 
 class RandomDecks(test_decks.OnRanks):
-    def run_seed(self, seed, outdir, n, threads):
+    def run_as(self, outdir, n, threads):
         code, _, errors = self.run_deck(n, outdir, "deck.nml", "--set", "output.name=free", threads=threads)
         return code, [line for line in errors.splitlines() if line.startswith("deck.nml")]
 
@@ -60,8 +60,8 @@ class RandomDecks(test_decks.OnRanks):
         deck = KINDS[seed % len(KINDS)](seed)
         deck.write(self.folder)
         n, threads = test_decks.RANKS[seed % len(test_decks.RANKS)], 1 + seed // 7 % 2
-        code, said = self.run_seed(seed, f"one{seed}", 0, 1)
-        there, heard = self.run_seed(seed, f"ranks{seed}", n, threads)
+        code, said = self.run_as(f"one{seed}", 0, 1)
+        there, heard = self.run_as(f"ranks{seed}", n, threads)
         if any("ranks are more than the" in line for line in heard):
             census.sums["decks with fewer nodes than ranks"] += 1
             return
@@ -77,6 +77,9 @@ class RandomDecks(test_decks.OnRanks):
             with self.subTest(seed=seed):
                 self.check(seed, census)
         print(f"{NUMBER} decks from seed {SEED}: {census}", flush=True)
+        if NUMBER >= len(KINDS):  # else nothing is compared, if all are refused
+            for what in ("events", "breaks", "decks whose bodies touch"):
+                self.assertGreater(census.sums[what], 0, what)
 
 
 if __name__ == "__main__":
