@@ -80,7 +80,7 @@ typedef struct dem_peaks dem_peaks;
 DEM_API dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index every);
 
 /** Peaks as they were when the checkpoint was taken; `every` is the checkpoint's.
- *  \return DEM_ERROR_IO if the checkpoint has none of such a model */
+ *  \return DEM_ERROR_ARGUMENT for another `every`; DEM_ERROR_IO if the checkpoint has none of such a model */
 DEM_API dem_status dem_peaks_resume(dem_peaks **out, const dem_model *model, dem_index every,
                                     const dem_checkpoint *checkpoint);
 

@@ -1519,7 +1519,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any], str]] = {  # result, arguments, text
     "dem_peaks_resume": (c_int, [POINTER(POINTER(dem_peaks)), POINTER(dem_model), c_int64, POINTER(dem_checkpoint)],
         """dem_peaks_resume(out, model, every, checkpoint)
         Peaks as they were when the checkpoint was taken; `every` is the checkpoint's.
-        Returns DEM_ERROR_IO if the checkpoint has none of such a model"""),
+        Returns DEM_ERROR_ARGUMENT for another `every`; DEM_ERROR_IO if the checkpoint has none of such a model"""),
     "dem_peaks_destroy": (None, [POINTER(dem_peaks)],
         """dem_peaks_destroy(peaks)
         Accepts NULL."""),

@@ -44,10 +44,25 @@ static dem_status look(void *context, const dem_simulation *simulation)
     return status;
 }
 
+static const char entry_every[] = "peaks.every";
+
+/* Checkpoints of older versions do not say it. */
+static dem_status check_every(const dem_peaks *p, const dem_checkpoint *from)
+{
+    size_t size;
+    dem_index every;
+    const void *kept = dem_checkpoint_find(from, entry_every, &size);
+    if (kept == NULL) return DEM_OK;
+    TRY(dem_checkpoint_get(from, entry_every, &every, sizeof every));
+    CHECK(every == p->every, DEM_ERROR_ARGUMENT,
+          "the checkpoint is of a run that looked for peaks every %lld steps, not every %lld", (long long)every,
+          (long long)p->every);
+    return DEM_OK;
+}
+
 /* Puts what a checkpoint contains of the peaks into it, or gets it from there. */
 static dem_status pass(dem_peaks *p, const checkpoint_entries_way *way)
 {
-    TRY(checkpoint_entries_pass(way, "peaks.left", &p->left, sizeof p->left));
     TRY(checkpoint_entries_pass(way, "peaks.nodes", p->nodes, (size_t)p->n_nodes * sizeof *p->nodes));
     return checkpoint_entries_pass(way, "peaks.springs", p->springs, (size_t)p->n_springs * sizeof *p->springs);
 }
@@ -57,8 +72,9 @@ static dem_status remember(void *context, const dem_simulation *simulation, dem_
 {
     const checkpoint_entries_way way = {.into = checkpoint};
     dem_peaks *p = context;
-    p->left = p->every - 1 - steps_since_look(p, simulation);
+    (void)simulation;
     TRY(bring(p));
+    TRY(checkpoint_entries_pass(&way, entry_every, &p->every, sizeof p->every));
     return pass(p, &way);
 }
 
@@ -112,18 +128,15 @@ dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index e
     return status;
 }
 
-/* A checkpoint of a run with another `every` may count further down than this one: it is refused. */
 dem_status dem_peaks_resume(dem_peaks **out, const dem_model *model, dem_index every, const dem_checkpoint *checkpoint)
 {
     const checkpoint_entries_way way = {.from = checkpoint};
     dem_peaks *p;
     CHECK(checkpoint != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_resume: checkpoint is NULL");
     TRY(dem_peaks_create(&p, model, every));
-    dem_status status = pass(p, &way);
+    dem_status status = check_every(p, checkpoint);
+    if (status == DEM_OK) status = pass(p, &way);
     p->is_new = false;
-    if (status == DEM_OK && (p->left < 0 || p->left >= every))
-        status = status_fail(DEM_ERROR_IO, "the checkpoint has %lld steps until the next look at peaks, of %lld",
-                             (long long)p->left, (long long)every);
     if (status == DEM_OK)
         *out = p;
     else

@@ -9,8 +9,7 @@
 
 struct dem_peaks {
     dem_index n_nodes, n_springs;
-    dem_index every;      /* accepted steps between looks, */
-    dem_index left;       /* so many are passed over before the next, as checkpoints have it */
+    dem_index every;      /* accepted steps from look to look */
     bool is_new;          /* no node and no spring has a peak yet */
     dem_node_peak *nodes; /* [n_nodes] NULL, as the next one: ranks alone have them */
     dem_spring_peak *springs;

@@ -118,8 +118,8 @@ static const base *base_of(dem_contact_method contact)
 /* ---- checkpoints ---- */
 
 static const char *const names[] = {
-    "sizes",      "numbers",     "counts",        "impulses",   "overlap",           "contacts", "state",
-    "peaks.left", "peaks.nodes", "peaks.springs", "trajectory", "trajectory.probes", "motions"};
+    "sizes",       "numbers",     "counts",        "impulses",   "overlap",           "contacts", "state",
+    "peaks.every", "peaks.nodes", "peaks.springs", "trajectory", "trajectory.probes", "motions"};
 enum { N_NAMES = sizeof names / sizeof *names, MOST_BYTES = 1 << 16 };
 
 static void change(bytes *from, unsigned char *data, size_t n)
@@ -241,7 +241,8 @@ static void resume(const base *b, const dem_checkpoint *checkpoint, int with_fil
     dem_trajectory *trajectory = NULL;
     const dem_status looked = dem_peaks_resume(&peaks, b->model, 4, checkpoint);
     const dem_status status = dem_simulation_resume(&simulation, b->model, &b->options, checkpoint);
-    require(looked == DEM_OK || (looked == DEM_ERROR_IO && peaks == NULL));
+    require(looked == DEM_OK || peaks == NULL);
+    require(looked == DEM_OK || looked == DEM_ERROR_IO || looked == DEM_ERROR_ARGUMENT); /* of another interval */
     require(status == DEM_OK || (status == DEM_ERROR_IO && simulation == NULL));
     if (status == DEM_OK && with_files) trajectory = resume_files(b, simulation, checkpoint);
     if (status == DEM_OK && peaks != NULL) watch(simulation, ask_peaks_observer(peaks));

@@ -889,6 +889,7 @@ static dem_checkpoint *follow_to(const place *p, const dem_checkpoint *checkpoin
     options.spacing = 5e-3, options.max_step = 2e-5, options.v_scale = 5.0, options.checkpoint_steps = 16;
     if (checkpoint != NULL) {
         assert_ok(dem_simulation_resume(&simulation, p->model, &options, checkpoint));
+        assert_int_equal(dem_peaks_resume(&peaks, p->model, 5, checkpoint), DEM_ERROR_ARGUMENT);
         assert_ok(dem_peaks_resume(&peaks, p->model, 4, checkpoint));
     } else {
         assert_ok(dem_simulation_create(&simulation, p->model, &options));
