@@ -13,11 +13,14 @@ import termios
 import unittest
 
 SECONDS = 120  # of a cell, on a machine with much else to do
+# Frames take longer than what a bar waits between two times that it is shown, however fast the machine is.
 PROGRAM = """
+import time
 import dem
 lattice = dem.Lattice.disc(0.065, 4e-3).assemble(dem.Material(youngs_modulus=1e7, density=1050, thickness=1))
 lattice.move((0, 0.1)).launch((0, -10))
 with dem.Simulation(lattice, dem.Obstacle([(-0.3, 0.1), (0.3, -0.1)])) as simulation:
+    simulation.observe(frame=lambda _: time.sleep(0.15), interval=4e-3)
     simulation.advance(20e-3, progress=True)
 """
 RUN = """
