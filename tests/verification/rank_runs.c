@@ -212,6 +212,18 @@ static void copy(const dem_model *model, int kind, int width, const double *from
             memcpy(to + width * number_of(model->domain, kind, k), from + width * k, (size_t)width * sizeof *to);
 }
 
+void rank_runs_set_off(dem_lattice *l, double speed, double wave)
+{
+    CLEANUP(free_memory) double *v = calloc(2 * (size_t)l->n_nodes, sizeof *v);
+    assert_non_null(v);
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        const double x = l->x[2 * i] / 0.05, y = l->x[2 * i + 1] / 0.05;
+        v[2 * i] = speed * (0.3 + sin(3.0 * y) + 0.5 * sin(wave * x));
+        v[2 * i + 1] = speed * (cos(2.0 * x) - 0.7 * sin(5.0 * x * y));
+    }
+    support_start(l, NULL, v);
+}
+
 void rank_runs_copy(const dem_model *model, int width, const double *from, double *to)
 {
     copy(model, RANK_RUNS_NODES, width, from, to);

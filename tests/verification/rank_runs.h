@@ -115,6 +115,10 @@ void rank_runs_go(const dem_model *model, const ranks *leads, const rank_runs_ou
 /** A process alone runs the scene, to its end. */
 rank_runs_outcome rank_runs_alone(const rank_runs_scene *scene);
 
+/** Sets a body off, so that it swings and shears: at 60 m/s some triangles of rubber fold.
+ *  \param wave  of short waves, in 1/(50 mm) */
+void rank_runs_set_off(dem_lattice *l, double speed, double wave);
+
 /** Copies rows of own nodes to where the whole has them.  \param to  [n of the whole][width] */
 void rank_runs_copy(const dem_model *model, int width, const double *from, double *to);
 

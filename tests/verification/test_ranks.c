@@ -29,18 +29,6 @@ typedef struct scene {
     dem_index *held, *pushed; /* nodes */
 } scene;
 
-/* They swing and shear, and one is so fast that its triangles fold and steps are rejected. */
-static void set_off(dem_lattice *l, double speed)
-{
-    CLEANUP(free_memory) double *v = calloc(2 * (size_t)l->n_nodes, sizeof *v);
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        const double x = l->x[2 * i] / 0.05, y = l->x[2 * i + 1] / 0.05;
-        v[2 * i] = speed * (0.3 + sin(3.0 * y) + 0.5 * sin(40.0 * x));
-        v[2 * i + 1] = speed * (cos(2.0 * x) - 0.7 * sin(5.0 * x * y));
-    }
-    support_start(l, NULL, v);
-}
-
 /* A second body beside the first. */
 static void add_copy(dem_lattice *l)
 {
@@ -71,7 +59,7 @@ static dem_lattice make_lattice(int body)
         assert_ok(dem_lattice_assemble(&l, &solid));
     }
     if (body == 1) add_copy(&l);
-    set_off(&l, body == 0 ? 60.0 : 2.0);
+    rank_runs_set_off(&l, body == 0 ? 60.0 : 2.0, 40.0);
     return l;
 }
 

@@ -51,18 +51,6 @@ static dem_lattice make_plate(double width, double height)
     return l;
 }
 
-/* It shears and swings, so fast that some triangles fold. */
-static void set_off(dem_lattice *l, double speed)
-{
-    CLEANUP(free_memory) double *v = calloc(2 * (size_t)l->n_nodes, sizeof *v);
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        const double x = l->x[2 * i] / 0.05, y = l->x[2 * i + 1] / 0.05;
-        v[2 * i] = speed * (0.3 + sin(3.0 * y) + 0.5 * sin(20.0 * x));
-        v[2 * i + 1] = speed * (cos(2.0 * x) - 0.7 * sin(5.0 * x * y));
-    }
-    support_start(l, NULL, v);
-}
-
 static scene scene_of(const dem_lattice *l, const dem_obstacle *obstacles, int n, double t_end)
 {
     scene s = {.model = support_model(l, obstacles, n), .options = dem_options_default(), .t_end = t_end};
@@ -211,7 +199,7 @@ static void check(const scene *s, int n_ranks, const outcome *whole, int n_stage
 TEST(each_step_of_a_rank_is_one_wave)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = make_plate(0.38, 0.28);
-    set_off(&l, 2.0);
+    rank_runs_set_off(&l, 2.0, 20.0);
     scene s = scene_of(&l, NULL, 0, 2e-4);
     outcome whole = run_alone(&s);
     assert_string_equal(whole.failure, "");
@@ -226,7 +214,7 @@ TEST(each_step_of_a_rank_is_one_wave)
 TEST(steps_are_rejected_alike)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = make_plate(0.22, 0.28);
-    set_off(&l, 60.0);
+    rank_runs_set_off(&l, 60.0, 20.0);
     scene s = scene_of(&l, NULL, 0, 4e-5);
     s.options.rtol = 1e-10;
     outcome whole = run_alone(&s);
@@ -241,7 +229,7 @@ TEST(steps_are_rejected_alike)
 TEST(a_stage_that_is_not_finite_fails_alike)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = make_plate(0.3, 0.28);
-    set_off(&l, 2.0);
+    rank_runs_set_off(&l, 2.0, 20.0);
     for (int k = 0; k < 2; k++) {
         l.velocity[2 * 20] = k == 0 ? 1e200 : 1e161; /* at any length of the step; at the first */
         scene s = scene_of(&l, NULL, 0, 1e-5);
@@ -329,7 +317,7 @@ static void check_verlet(const scene *s, int n_ranks, int n_rings, const outcome
 TEST(ranks_take_steps_at_once)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = make_plate(0.5, 0.44);
-    set_off(&l, 2.0);
+    rank_runs_set_off(&l, 2.0, 20.0);
     scene s = verlet_of(&l, NULL, 0, 80.5);
     outcome whole = run_alone(&s);
     assert_string_equal(whole.failure, "");
@@ -352,7 +340,7 @@ TEST(steps_at_once_and_events_follow_each_other_alike)
     static const double floor_points[] = {-2.0, 0.0, 2.0, 0.0};
     CLEANUP(dem_lattice_free) dem_lattice l = make_plate(0.3, 0.28);
     const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 0.9);
-    set_off(&l, 0.5);
+    rank_runs_set_off(&l, 0.5, 20.0);
     for (dem_index i = 0; i < l.n_nodes; i++) l.velocity[2 * i + 1] -= 4.0;
     dem_lattice_move(&l, 0.0, (double[]){0.0, 3e-4 - support_bottom(&l)});
     scene s = verlet_of(&l, &floor, 1, 100.5);
@@ -387,7 +375,7 @@ TEST(bodies_run_into_each_other_after_steps_at_once)
 TEST(steps_that_one_rank_cannot_take_are_single_on_all)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = make_plate(0.3, 0.28);
-    set_off(&l, 2.0);
+    rank_runs_set_off(&l, 2.0, 20.0);
     for (int k = 0; k < 2; k++) {
         l.velocity[2 * 20] = k == 0 ? 400.0 : 1e200;
         scene s = verlet_of(&l, NULL, 0, 60.5);
@@ -410,7 +398,7 @@ static dem_status count(void *context, const dem_simulation *simulation)
 TEST(ranks_need_not_see_the_same_steps)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = make_plate(0.3, 0.28);
-    set_off(&l, 2.0);
+    rank_runs_set_off(&l, 2.0, 20.0);
     scene s = verlet_of(&l, NULL, 0, 80.5);
     outcome whole = run_alone(&s);
     int seen[2] = {0};
