@@ -149,18 +149,19 @@ INLINE lanes lanes_inverse_error(lanes b, lanes y)
     return _mm512_fnmadd_pd(b, y, _mm512_set1_pd(1.0));
 }
 
+#ifdef LANES_DIVIDE
+/** a/b by the divider, where that is faster (sweep_avx512_divider.c). */
+INLINE lanes lanes_div(lanes a, lanes b)
+{
+    return _mm512_div_pd(a, b);
+}
+#else
 /** a/b for b > 0 with the bits of a division, which would wait for the divider, where the square roots are. The
  *  estimate of the inverse has 14 bits, which differ between makers; y + y (1 - b y) leaves it within an ulp at the
  *  second time, and at the third rounds it correctly, so that the quotient, corrected by its remainder, is right, too
  *  (P. Markstein, IBM J. Res. Dev. 34 (1990) 111). Where all bits of b's significand are 1 that needs an inverse which
  *  is not too small before, therefore the second is rounded up. Zeros keep their sign. Other than by a division an
  *  infinite quotient, and one by infinity, is NAN, and nothing holds where a remainder or an inverse is subnormal. */
-#ifdef LANES_DIVIDE
-INLINE lanes lanes_div(lanes a, lanes b)
-{
-    return _mm512_div_pd(a, b);
-}
-#else
 INLINE lanes lanes_div(lanes a, lanes b)
 {
     const lanes sign = _mm512_set1_pd(-0.0);

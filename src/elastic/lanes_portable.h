@@ -236,7 +236,7 @@ static inline lanes lanes_unless_zero(lanes where, lanes a)
 INLINE lanes lanes_behind(lanes before, lanes a)
 {
     lanes c;
-    HALF c.n[k] = (two){k > 0 ? a.n[k - (k > 0)][1] : before.n[3][1], a.n[k][0]};
+    HALF c.n[k] = (two){k > 0 ? a.n[k - 1][1] : before.n[3][1], a.n[k][0]};
     return c;
 }
 
@@ -244,7 +244,7 @@ INLINE lanes lanes_behind(lanes before, lanes a)
 INLINE lanes lanes_ahead(lanes a, lanes after)
 {
     lanes c;
-    HALF c.n[k] = (two){a.n[k][1], k < 3 ? a.n[k + (k < 3)][0] : after.n[0][0]};
+    HALF c.n[k] = (two){a.n[k][1], k < 3 ? a.n[k + 1][0] : after.n[0][0]};
     return c;
 }
 

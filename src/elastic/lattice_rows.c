@@ -33,8 +33,9 @@ typedef struct finder {
     int32_t *row, *column;   /* [n] of nodes, */
     unsigned char *reached;  /* [n] 1: which are known */
     int32_t *by_row, *start; /* [n] nodes as they are reached, then by lattice rows; [n_rows + 2] where these begin */
-    int32_t *at[2];          /* nodes at the places of two lattice rows, from the first block on that is
-                                            evaluated of the lower one, with one place more on either side */
+    /* Nodes at the places of two lattice rows, from the first block on that is evaluated of the lower one, with one
+     * place more on either side. */
+    int32_t *at[2];
     dem_index n_springs, n_triangles; /* that have been found */
     dem_index segment_capacity, n_segments;
     bool fits;
