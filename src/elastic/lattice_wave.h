@@ -33,7 +33,7 @@ void lattice_wave_free(lattice_wave *w);
 /** Whether each thread of the team has a share. */
 bool lattice_wave_pays(const lattice_wave *w);
 
-/** How many steps a wave takes at most: the lattice rows that are on their way stay in the second cache. */
+/** How many steps a wave takes at most: lattice rows on their way stay in the second cache, or nearly. */
 int lattice_wave_most(const lattice_wave *w);
 
 /** Takes the steps, where no element has failed.

@@ -24,9 +24,9 @@ typedef struct whole_lattice {
  *  each node of the domain all triangles are there, and what is beside their sides. Springs are those that join nodes
  *  of the domain. */
 typedef struct domain_cut {
-    dem_model
-        *model; /* the domain but for its triangles, rigid bodies, sums over bodies in `touching`, scales; no more,
-                         and on a rank that waits for it nothing but zeros */
+    /* The domain but for its triangles, rigid bodies, sums over bodies in `touching`, scales; no more, and on a rank
+     * that waits for it nothing but zeros. */
+    dem_model *model;
     dem_lattice around;
     dem_index *place;    /* [nodes of the domain] their numbers in `around`, ascending */
     dem_index *triangle; /* [triangles of `around`] their numbers in the whole, ascending */

@@ -51,7 +51,6 @@ typedef struct run_unseen {
     dem_index *surface;  /* [n_surface] ascending */
     int wait, last_wait; /* steps until they are tried again, and how many those were after the last failure; */
     int last_pause;      /* and how many they are after ranks have not agreed on any */
-    bool is_last;        /* whether the last steps were of this kind: nothing has touched in them */
 } run_unseen;
 
 /** Flags say where a run is:

@@ -141,7 +141,6 @@ static bool is_waiting(run_unseen *u)
 int unseen_steps_take(dem_simulation *s, int most, double t_end)
 {
     run_unseen *u = &s->unseen;
-    u->is_last = false;
     if (u->wave == NULL || s->forces.elements != NULL) return 0;
     const int at_once = most_at_once(s);
     int n = count_to_frame(s, most < at_once ? most : at_once, t_end);
@@ -158,7 +157,6 @@ int unseen_steps_take(dem_simulation *s, int most, double t_end)
         return 0;
     }
     u->last_wait = 0;
-    u->is_last = true;
     s->y = integrator_state(&s->integrator);
     s->step = ends[n - 1] - ends[n - 2];
     s->t = ends[n - 1];
