@@ -248,7 +248,13 @@ static void take_spring(finder *f, double *set, int k, int32_t lower, int32_t up
     f->n_springs += spring >= 0;
 }
 
-/* Areas differ by rounding from corner to corner. */
+static bool is_asked_for(const finder *f, int32_t node)
+{
+    return f->from->is_ghost == NULL || f->from->is_ghost[node] == 0;
+}
+
+/* Areas differ by rounding from corner to corner. Triangles of ghosts alone are judged by who owns a corner: here ghosts
+ * on the outside go on without forces, so that triangles may fold that do not. */
 static double onset_of(finder *f, int32_t lowest, int32_t next, int32_t last)
 {
     const triangles *t = f->from->triangles;
@@ -257,6 +263,7 @@ static double onset_of(finder *f, int32_t lowest, int32_t next, int32_t last)
         if (t->next[p] != next || t->last[p] != last) continue;
         f->n_triangles++;
         if (!(triangles_guard(t, p) > 0.0)) break;
+        if (!is_asked_for(f, lowest) && !is_asked_for(f, next) && !is_asked_for(f, last)) break;
         f->out->guarded = true;
         return 1.001 * TRIANGLES_GUARD_ONSET * triangles_rest_area(t, lowest, p);
     }

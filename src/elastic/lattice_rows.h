@@ -42,7 +42,8 @@ typedef struct lattice_block {
     int32_t right, up, back;     /* springs c to c + 1, c to c above, and c + 1 to c above */
     int32_t inverse_mass;        /* [LAYOUT_LANES] 1/kg, 0 where there is no node */
     int32_t upright, overturned; /* [LAYOUT_LANES] areas, m^2, below which the guard of the triangle c, c + 1, c above
-                                    may act, and of c, c above, c - 1 above; -inf: never */
+                                    may act, and of c, c above, c - 1 above; -inf: never, or it
+                                    has ghosts alone */
 } lattice_block;
 
 typedef struct lattice_rows {
@@ -60,8 +61,9 @@ typedef struct lattice_rows {
 typedef struct lattice_rows_input {
     const springs *springs;
     const triangles *triangles;
-    const double *x;            /* [n_nodes][2] at rest, m */
-    const double *inverse_mass; /* [n_nodes] 1/kg */
+    const double *x;               /* [n_nodes][2] at rest, m */
+    const double *inverse_mass;    /* [n_nodes] 1/kg */
+    const unsigned char *is_ghost; /* [n_nodes] 1: what the node does is not asked for; NULL: of no node */
 } lattice_rows_input;
 
 /** Compiles. Where a body is not made of equilateral triangles in lattice rows one above the other, or more than

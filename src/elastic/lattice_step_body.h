@@ -138,16 +138,19 @@ INLINE void take_block(lattice_step *s, const lattice_block *b, lattice_carry *c
                          .back_edge = back_edge};
 }
 
+/* What the block before the first one would leave is 0: at its first place no node is, or none that is asked for, nor a
+ * triangle that is judged. */
 INLINE void take_row(lattice_step *s, bool guarded)
 {
     const lattice_rows *r = s->rows;
     const lattice_row *here = &r->row[s->row], *next = here + 1;
     const lattice_block *records = r->records.items;
-    const int32_t *block = r->block + here->block;
-    const dem_index at = LAYOUT_LANES * (here->first - here->stored);
+    const lattice_span blocks = s->blocks;
+    const int32_t *block = r->block + here->block + blocks.first - here->first;
+    const dem_index at = LAYOUT_LANES * (blocks.first - here->stored);
     const plane_pair none = {lanes_all(0.0), lanes_all(0.0)};
     lattice_carry carry = {.at = at,
-                           .above = LAYOUT_LANES * (here->first - next->stored),
+                           .above = LAYOUT_LANES * (blocks.first - next->stored),
                            .sum = none.x,
                            .here = plane_pair_load(s->here.x, at),
                            .right = none,
@@ -155,7 +158,7 @@ INLINE void take_row(lattice_step *s, bool guarded)
                            .back_edge = none};
     double each[LAYOUT_LANES];
     drift_row(&s->next, s->h, LAYOUT_LANES * (dem_index)next->n_stored);
-    for (int32_t k = 0; k < here->n_blocks; k++) take_block(s, &records[block[k]], &carry, guarded);
+    for (int32_t k = 0; k < blocks.n_blocks; k++) take_block(s, &records[block[k]], &carry, guarded);
     lanes_store(each, carry.sum);
     s->sum = 0.0;
     for (int k = 0; k < LAYOUT_LANES; k++) s->sum += each[k];

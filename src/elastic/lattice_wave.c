@@ -15,6 +15,7 @@
 #include "base/aligned.h"
 #include "base/sorted.h"
 #include "base/status.h"
+#include "elastic/lattice_reach.h"
 #include "elastic/sweep.h"
 
 enum {
@@ -33,6 +34,7 @@ typedef struct lattice_result {
 
 struct lattice_wave {
     lattice_rows rows;
+    lattice_reach reach;
     lattice_step_function *step;
     team *team;
     int most, n_slots, n_shares;
@@ -141,11 +143,17 @@ static double highest_square(const lattice_pass *p, dem_index row, double square
     return square;
 }
 
+/* A lattice row with nothing to evaluate takes the next one through the step if that has. */
 static void take_step(lattice_pass *p, dem_index row, int step)
 {
+    const lattice_reach *reach = &p->wave->reach;
+    const int n_follow = p->steps->n - 1 - step;
+    const lattice_span blocks = lattice_reach_span(reach, row, n_follow);
+    if (blocks.n_blocks == 0 && lattice_reach_span(reach, row + 1, n_follow).n_blocks == 0) return;
     lattice_result *result = p->result;
     lattice_step s = {.rows = &p->wave->rows,
                       .row = row,
+                      .blocks = blocks,
                       .h = p->steps->h,
                       .gravity = p->steps->gravity,
                       .here = *slot_of(p, row),
@@ -272,6 +280,7 @@ dem_status lattice_wave_create(lattice_wave **out, const lattice_rows_input *fro
     if (status == DEM_OK && w->rows.n_rows > 0) {
         w->width = width_of(&w->rows);
         status = allocate(w);
+        if (status == DEM_OK) status = lattice_reach_create(&w->reach, &w->rows, from->is_ghost, w->most);
         if (status == DEM_OK) {
             *out = w;
             return DEM_OK;
@@ -285,6 +294,7 @@ void lattice_wave_free(lattice_wave *w)
 {
     if (w == NULL) return;
     lattice_rows_destroy(&w->rows);
+    lattice_reach_destroy(&w->reach);
     free(w->numbers);
     free(w->slots);
     free(w->results);

@@ -302,7 +302,11 @@ static int count_shares(const kernel *k)
 static lattice_wave *create_rows(const kernel *k)
 {
     const dem_model *m = k->model;
-    const lattice_rows_input from = {&m->springs, &m->triangles, m->lattice.x, m->inverse_mass};
+    const lattice_rows_input from = {.springs = &m->springs,
+                                     .triangles = &m->triangles,
+                                     .x = m->lattice.x,
+                                     .inverse_mass = m->inverse_mass,
+                                     .is_ghost = m->domain != NULL ? m->domain->is_ghost : NULL};
     lattice_step_function *step = kernel_functions_of(k->kind)->lattice_step;
     lattice_wave *rows = NULL;
     if (step == NULL || m->layout.stiff || m->layout.coupled || m->layout.damped) return NULL;

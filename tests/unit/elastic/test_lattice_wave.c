@@ -7,7 +7,7 @@
 
 static lattice_rows_input input_of(const dem_model *m)
 {
-    return (lattice_rows_input){&m->springs, &m->triangles, m->lattice.x, m->inverse_mass};
+    return (lattice_rows_input){&m->springs, &m->triangles, m->lattice.x, m->inverse_mass, NULL};
 }
 
 /* The lattice rows of a lattice, which is freed; 0: it has none. */
