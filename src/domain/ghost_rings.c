@@ -85,6 +85,13 @@ static void keep(ghost_rings *g, int n_rings, dem_index n_nodes)
     sort(g, n_nodes);
 }
 
+/* With `fit` rings `most` steps are taken in so many parts; as many have a use for no more rings than the longest. */
+static int even_rings(int most, int fit)
+{
+    const int n_parts = (most + fit - 1) / fit;
+    return (most + n_parts - 1) / n_parts;
+}
+
 dem_status ghost_rings_find(ghost_rings *out, const dem_lattice *whole, const domain_shares *shares)
 {
     *out = (ghost_rings){.n_rings = 1};
@@ -94,7 +101,7 @@ dem_status ghost_rings_find(ghost_rings *out, const dem_lattice *whole, const do
     while (out->n_rings < shares->n_rings && out->n <= shares->most_ghosts)
         TRY(add_ring(out, whole, shares, ++out->n_rings));
     if (out->n_rings == 1 || out->n <= shares->most_ghosts) return DEM_OK;
-    const int fit = out->n_rings - 1;
+    const int fit = even_rings(shares->n_rings, out->n_rings - 1);
     keep(out, fit >= shares->least_rings ? fit : 1, whole->n_nodes);
     return DEM_OK;
 }

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Recursive coordinate bisection: the nodes of some ranks are cut in two across the longer side of their bounding box,
- * and the ranks with them, until each has its own. Of nodes at the same coordinate the lower numbers come first, so
- * that the result depends on rest positions, weights and the number of ranks alone. */
+ * and the ranks with them, until each has its own. Of sides that are nearly equal the upright one is cut, as lattice
+ * rows mostly lie and so stay whole. Of nodes at the same coordinate the lower numbers come first, so that the result
+ * depends on rest positions, weights and the number of ranks alone. */
 #include "domain/partition.h"
 
 #include <stdlib.h>
 
 #include "base/box.h"
 #include "base/status.h"
+
+static const double nearly_equal = 0.9;
 
 /* A node as it is sorted. */
 typedef struct place {
@@ -33,7 +36,7 @@ static void sort_along(const section *s, const dem_lattice *l)
 {
     box all = box_empty();
     for (dem_index k = 0; k < s->n; k++) all = box_with(all, vec2_at(l->x, s->places[k].node));
-    const int along = all.high.y - all.low.y > all.high.x - all.low.x;
+    const int along = all.high.y - all.low.y > nearly_equal * (all.high.x - all.low.x);
     for (dem_index k = 0; k < s->n; k++) s->places[k].coordinate = l->x[2 * s->places[k].node + along];
     qsort(s->places, (size_t)s->n, sizeof *s->places, compare);
 }

@@ -90,10 +90,10 @@ static domain_shares shares_of(const ranks *r, const dem_model *whole, const dom
         .n_ranks = r->size, .owner = s->owner, .is_common = is_common, .n_rings = s->n_rings, .most_ghosts = INT64_MAX};
     if (s->n_rings > 0) return shares;
     const bool is_slack = !whole->layout.stiff && !whole->layout.coupled;
-    const dem_index least = (is_slack ? use.least_slack : use.least_nodes) * r->size;
-    shares.n_rings = n >= least && may_have_rings(&whole->lattice) ? use.most : 1;
+    const ring_room room = is_slack ? use.slack : use.stiff;
+    shares.n_rings = n >= room.least_nodes * r->size && may_have_rings(&whole->lattice) ? use.most : 1;
     shares.least_rings = use.least;
-    shares.most_ghosts = n / use.part;
+    shares.most_ghosts = n / room.part;
     return shares;
 }
 
@@ -105,7 +105,7 @@ static dem_status find_lists(whole_lattice *w, const ranks *r, const domain_mode
     ring_use both[] = {ring_use_of_steps(LEAST_STEPS, MOST_STEPS), ring_use_of_stages(PAIR_RINGS)};
     const ring_use *uses = s->use.most > 0 ? &s->use : both;
     const int n = s->use.most > 0 ? 1 : 2;
-    both[0].least_slack = both[0].least_nodes;
+    both[0].slack = both[0].stiff;
     for (int k = 0; k < n && w->lists.rings.n_rings <= 1; k++) {
         domain_lists_free(&w->lists);
         w->shares = shares_of(r, w->model, s, uses[k], w->is_common);

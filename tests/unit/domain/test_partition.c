@@ -27,6 +27,17 @@ TEST(the_longer_side_is_cut_and_lower_coordinates_come_first)
     assert_memory_equal(owner, expected, sizeof owner);
 }
 
+/* A row of two stands above another one: they stay whole, though they are a little longer than the way between. */
+TEST(of_nearly_equal_sides_the_upright_one_is_cut)
+{
+    double x[] = {0.0, 0.0, 1.0, 0.0, 0.0, 0.95, 1.0, 0.95};
+    const dem_lattice l = SIZED(dem_lattice, .dim = 2, .n_nodes = 4, .x = x);
+    int32_t owner[4];
+    assert_ok(partition_bisect(&l, 2, owner));
+    const int32_t expected[4] = {0, 0, 1, 1};
+    assert_memory_equal(owner, expected, sizeof owner);
+}
+
 TEST(ties_go_by_number)
 {
     double x[10] = {0.0}; /* all at one place */
