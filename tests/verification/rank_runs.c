@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "rank_runs.h"
 
+#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -438,23 +439,43 @@ void rank_runs_together(const rank_runs_scene *scene, int n_ranks, const domain_
     rank_threads_run(n_ranks, run_rank, &(shared_run){scene, shares, from, out});
 }
 
+/* ---- runs that rank 0 leads ---- */
+
 enum { DISMISSAL = 75 };
 
-static void lead_as_rank(const ranks *r, void *context)
+typedef struct led_work {
+    rank_threads_work *lead;
+    void *context;
+    atomic_int n_lost; /* ranks that were dismissed with another number */
+} led_work;
+
+static void take_part(const ranks *r, void *context)
 {
-    const shared_run *c = context;
+    led_work *w = context;
     if (r->rank > 0) {
-        if (dem_private_follow(r) != DISMISSAL) c->outcomes->calls.reductions = -1;
+        (void)atomic_fetch_add(&w->n_lost, dem_private_follow(r) != DISMISSAL);
         return;
     }
-    rank_runs_go(c->scene->model, r, c->from, c->outcomes);
+    w->lead(r, w->context);
     dem_private_dismiss(r, DISMISSAL);
+}
+
+void rank_runs_lead(int n_ranks, rank_threads_work *lead, void *context)
+{
+    led_work w = {.lead = lead, .context = context};
+    rank_threads_run(n_ranks, take_part, &w);
+    assert_int_equal(atomic_load(&w.n_lost), 0);
+}
+
+static void lead_run(const ranks *r, void *context)
+{
+    const shared_run *c = context;
+    rank_runs_go(c->scene->model, r, c->from, c->outcomes);
 }
 
 void rank_runs_led(const rank_runs_scene *scene, int n_ranks, const rank_runs_outcome *from, rank_runs_outcome *out)
 {
-    rank_threads_run(n_ranks, lead_as_rank, &(shared_run){.scene = scene, .from = from, .outcomes = out});
-    assert_int_equal(out->calls.reductions, 0);
+    rank_runs_lead(n_ranks, lead_run, &(shared_run){.scene = scene, .from = from, .outcomes = out});
 }
 
 /* ---- comparison ---- */

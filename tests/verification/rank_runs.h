@@ -126,7 +126,10 @@ void rank_runs_copy(const dem_model *model, int width, const double *from, doubl
 void rank_runs_together(const rank_runs_scene *scene, int n_ranks, const domain_model_shares *shares,
                         const rank_runs_outcome *from, rank_runs_outcome *out);
 
-/** Rank 0 leads a run, and dismisses the others with a number that they get. */
+/** Rank 0 of n does the work, in which it may lead the others, and dismisses them with a number that they get. */
+void rank_runs_lead(int n_ranks, rank_threads_work *lead, void *context);
+
+/** Rank 0 leads a run. */
 void rank_runs_led(const rank_runs_scene *scene, int n_ranks, const rank_runs_outcome *from, rank_runs_outcome *out);
 
 /** What is not the same, in words, from the first stop on that a run from a checkpoint comes to; NULL: all is.

@@ -263,15 +263,10 @@ static dem_status watch(watched *w, const ranks *r)
     return status;
 }
 
-static void watch_as_rank(const ranks *r, void *context)
+static void watch_as_leader(const ranks *r, void *context)
 {
     watched *w = context;
-    if (r->rank > 0) {
-        (void)dem_private_follow(r);
-        return;
-    }
     w->status = watch(w, r);
-    dem_private_dismiss(r, 0);
 }
 
 /* Rows of all nodes would take exchanges. */
@@ -280,8 +275,8 @@ TEST(a_leader_that_asks_how_far_the_run_is_gathers_nothing)
     scene s;
     open_scene(&s, 0, DEM_METHOD_VERLET);
     watched silent = {.scene = &s, .ask = ask_nothing}, curious = {.scene = &s, .ask = ask_how_far};
-    rank_threads_run(3, watch_as_rank, &silent);
-    rank_threads_run(3, watch_as_rank, &curious);
+    rank_runs_lead(3, watch_as_leader, &silent);
+    rank_runs_lead(3, watch_as_leader, &curious);
     assert_ok(silent.status);
     assert_ok(curious.status);
     assert_int_equal(curious.exchanges, silent.exchanges);

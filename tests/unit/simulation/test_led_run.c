@@ -5,6 +5,7 @@
 #include "harness/rank_threads.h"
 #include "simulation/led_run.h"
 #include "unit/simulation/runs.h"
+#include "verification/rank_runs.h"
 
 #include <stdio.h>
 
@@ -102,15 +103,10 @@ static dem_status watch(watched *w, const ranks *leads)
     return status;
 }
 
-static void watch_as_rank(const ranks *r, void *context)
+static void watch_as_leader(const ranks *r, void *context)
 {
     watched *w = context;
-    if (r->rank > 0) {
-        (void)dem_private_follow(r);
-        return;
-    }
     if (watch(w, r) != DEM_OK) (void)snprintf(w->failure, TEXT, "%s", dem_status_message());
-    dem_private_dismiss(r, 0);
 }
 
 static watched begin_watch(const dem_model *model)
@@ -138,7 +134,7 @@ static dem_index lead(const watched *whole, const double *seconds, int *n_shared
 {
     watched led = begin_watch(whole->model);
     rank_threads_pretend(seconds);
-    rank_threads_run(N_RANKS, watch_as_rank, &led);
+    rank_runs_lead(N_RANKS, watch_as_leader, &led);
     rank_threads_pretend(NULL);
     assert_string_equal(led.failure, "");
     assert_int_equal(led.n_steps, whole->n_steps);
