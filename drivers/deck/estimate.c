@@ -168,6 +168,7 @@ static double longest_step(const deck *d)
 /* What frames and tables are of. */
 typedef struct contents {
     double nodes, springs, bodies, obstacles, boundaries;
+    bool may_break; /* what may has all rows of the history (looks.c) */
 } contents;
 
 static double frame_bytes(const deck *d, const contents *c)
@@ -201,7 +202,8 @@ static double tables_bytes(const deck *d, const contents *c, double step, double
     static const double of_probe[] = {[DEM_PROBE_NODE] = 9.0, [DEM_PROBE_SPRING] = 3.0, [DEM_PROBE_GAUGE] = 3.0};
     const double duration = estimate_duration(d);
     const bool given = d->history_interval >= 0.0;
-    const double interval = given ? d->history_interval : looks_row_interval(d->options.method, c->nodes, step);
+    const double by_size = looks_row_interval(d->options.method, c->may_break ? 0.0 : c->nodes, step);
+    const double interval = given ? d->history_interval : by_size;
     const double rows = interval > 0.0 ? fmin(steps, duration / interval + 2.0) : steps;
     double bytes = table_bytes(rows, 35.0 + 5.0 * c->bodies + 9.0 * c->obstacles + 4.0 * c->boundaries);
     for (dem_index k = 0; k < d->n_probes; k++)
@@ -230,6 +232,15 @@ double estimate_duration(const deck *d)
     return fmin(last, d->t_end);
 }
 
+/* Whatever bodies are of, and without a look at strengths that a lattice file may have. */
+static bool names_fracture(const deck *d)
+{
+    const size_t n = schema_count(&d->groups, "material");
+    for (size_t k = 0; k < n; k++)
+        if (!schema_is(schema_get(&d->groups, "material", k), "fracture", "none")) return true;
+    return false;
+}
+
 bool estimate_deck(estimate *out, const deck *d)
 {
     estimate e = {.step = longest_step(d)};
@@ -245,7 +256,8 @@ bool estimate_deck(estimate *out, const deck *d)
                         .springs = e.springs,
                         .bodies = (double)n,
                         .obstacles = (double)schema_count(&d->groups, "obstacle"),
-                        .boundaries = (double)schema_count(&d->groups, "boundary")};
+                        .boundaries = (double)schema_count(&d->groups, "boundary"),
+                        .may_break = names_fracture(d)};
     settle(&e, d, &c, estimate_duration(d));
     *out = e;
     return true;
@@ -263,12 +275,14 @@ static double default_step(const deck *d, const dem_simulation *simulation)
 
 estimate estimate_run(const deck *d, const dem_simulation *simulation, double duration)
 {
-    const dem_model_size size = ask_sizes(dem_simulation_model(simulation));
+    const dem_model *model = dem_simulation_model(simulation);
+    const dem_model_size size = ask_sizes(model);
     const contents c = {.nodes = (double)size.n_nodes,
                         .springs = (double)size.n_springs,
                         .bodies = (double)size.n_bodies,
                         .obstacles = (double)size.n_obstacles,
-                        .boundaries = (double)d->n_boundaries};
+                        .boundaries = (double)d->n_boundaries,
+                        .may_break = ask_may_break(dem_model_lattice(model))};
     estimate e = {.step = ask_options(simulation).max_step};
     const double undamped = default_step(d, simulation);
     if (e.step < undamped * (1.0 - 1e-9)) e.undamped = undamped; /* rounding is no damping */

@@ -227,6 +227,25 @@ TEST(output_is_frames_and_tables)
     assert_close(e.output, 11.0 * (10000.0 * (24.0 + 4.0 * 13.0) + 40000.0 * (1.0 + 8.0)) + 8.0 * 1024.0 * 53.0, 1.0);
 }
 
+/* Large bodies have a row of every eighth step by Fehlberg's pair, but where they may break of each: of 10,000 steps 2
+ * and 10 chunks of 1024 rows of 35 numbers, and 5 for the body. */
+TEST(what_may_break_has_all_rows)
+{
+    static const char *const fracture[] = {"", ", fracture = 'stretch', critical_stretch = 0.1"};
+    double output[2];
+    for (int k = 0; k < 2; k++) {
+        char text[512];
+        (void)snprintf(text, sizeof text,
+                       HEAD "&material youngs_modulus = 1e7, density = 1000%s /\n&solver max_step = 1e-5 /\n"
+                            "&body shape = 'rectangle', size = 1, 1, lattice = 'square', " BODY,
+                       fracture[k]);
+        const estimate e = of(text);
+        assert_close(e.steps, 1e4, 1e-9);
+        output[k] = e.output;
+    }
+    assert_close(output[1] - output[0], 8.0 * 8.0 * 1024.0 * 40.0, 1.0);
+}
+
 /* What lasts until it is at rest lasts at least until its loads have grown; t_end is only its limit. */
 TEST(a_run_that_ends_at_rest_is_counted_by_its_ramps)
 {
