@@ -67,6 +67,35 @@ TEST(other_bodies_have_none)
     assert_int_equal(count_rows(make_solid(0.01, 2.0, &material)), 0); /* nearly all places are empty */
 }
 
+static dem_lattice make_jittered(double width)
+{
+    const dem_material material = law_of(0);
+    dem_lattice lattice = dem_lattice_empty();
+    assert_ok(dem_lattice_rectangle(&lattice, width, width, 1e-2));
+    assert_ok(dem_lattice_jitter(&lattice, 1e-3, 1));
+    assert_ok(dem_lattice_assemble(&lattice, &material));
+    return lattice;
+}
+
+/* Each block has springs, masses and areas of its own, 72 bytes a node: 16 bytes, and a megabyte, are allowed. */
+TEST(where_all_springs_differ_large_bodies_have_none)
+{
+    assert_true(count_rows(make_jittered(1.2)) > 0);     /* 17,000 nodes */
+    assert_int_equal(count_rows(make_jittered(1.4)), 0); /* 23,000 */
+}
+
+/* A triangle that is none of two lattice rows is found by their number. */
+TEST(a_body_with_a_triangle_elsewhere_has_none)
+{
+    const dem_material material = law_of(0);
+    for (int moved = 0; moved < 2; moved++) {
+        dem_lattice lattice = make_solid(0.25, 0.25, &material);
+        const dem_index *last = &lattice.triangles[3 * (lattice.n_triangles - 1)];
+        if (moved == 1) memcpy(lattice.triangles, (const dem_index[]){0, 2, last[2]}, 3 * sizeof *last);
+        assert_int_equal(count_rows(lattice) > 0, moved == 0);
+    }
+}
+
 static int most_steps(double width)
 {
     const dem_material material = law_of(0);
