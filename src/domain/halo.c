@@ -50,15 +50,30 @@ static void lay_out(halo *h, int n_arrays)
     }
 }
 
+/* How many of the n nodes, from the first one on, are numbered one after the other: of a lattice row, or a stretch of
+ * it, they are copied at once. */
+static dem_index count_run(const dem_index *nodes, dem_index n)
+{
+    dem_index k = 1;
+    while (k < n && nodes[k] == nodes[0] + k) k++;
+    return k;
+}
+
 static char *pack(const halo *h, char *to, const double *array, const dem_index *nodes, dem_index n)
 {
-    for (dem_index k = 0; k < n; k++, to += row_size(h)) memcpy(to, array + h->dim * nodes[k], row_size(h));
+    for (dem_index k = 0, run; k < n; k += run, to += (size_t)run * row_size(h)) {
+        run = count_run(nodes + k, n - k);
+        memcpy(to, array + h->dim * nodes[k], (size_t)run * row_size(h));
+    }
     return to;
 }
 
 static const char *unpack(const halo *h, const char *from, double *array, const dem_index *nodes, dem_index n)
 {
-    for (dem_index k = 0; k < n; k++, from += row_size(h)) memcpy(array + h->dim * nodes[k], from, row_size(h));
+    for (dem_index k = 0, run; k < n; k += run, from += (size_t)run * row_size(h)) {
+        run = count_run(nodes + k, n - k);
+        memcpy(array + h->dim * nodes[k], from, (size_t)run * row_size(h));
+    }
     return from;
 }
 
