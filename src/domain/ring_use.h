@@ -37,7 +37,7 @@ static inline ring_use ring_use_of_stages(int rings)
  *  leave out half of all ghosts, and gain the more the more steps are one wave. */
 static inline ring_use ring_use_of_steps(int least, int most)
 {
-    return (ring_use){most, least, {175000, 16}, {12000, 8}};
+    return (ring_use){most, least, {175000, 16}, {12000, 12}};
 }
 
 #endif
