@@ -89,7 +89,10 @@ static dem_status allocate(search *s, lattice_reach *out)
     const size_t n = (size_t)s->rows->n_rows + 2;
     extent *const extents = malloc(3 * n * sizeof *extents);
     out->row = malloc((size_t)s->rows->n_rows * (size_t)out->n_levels * sizeof *out->row);
-    CHECK(extents && out->row, DEM_ERROR_MEMORY, "out of memory for %lld lattice rows", (long long)s->rows->n_rows);
+    if (extents == NULL || out->row == NULL) {
+        free(extents);
+        return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld lattice rows", (long long)s->rows->n_rows);
+    }
     for (size_t k = 0; k < 3 * n; k++) extents[k] = none;
     s->all = extents + 1;
     s->asked = s->all + n;
