@@ -253,8 +253,8 @@ static bool is_asked_for(const finder *f, int32_t node)
     return f->from->is_ghost == NULL || f->from->is_ghost[node] == 0;
 }
 
-/* Areas differ by rounding from corner to corner. Triangles of ghosts alone are judged by who owns a corner: here ghosts
- * on the outside go on without forces, so that triangles may fold that do not. */
+/* Areas differ by rounding from corner to corner. Triangles of ghosts alone are judged by who owns a corner: here
+ * ghosts on the outside go on without forces, so that triangles may fold that do not. */
 static double onset_of(finder *f, int32_t lowest, int32_t next, int32_t last)
 {
     const triangles *t = f->from->triangles;
