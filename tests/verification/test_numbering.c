@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "forces/forces.h"
+#include "model/touching_bodies.h"
 
 static const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.4, .density = 1050.0,
                                          .thickness = 1.0, .guard = 0.02);
@@ -138,8 +139,16 @@ typedef struct sums {
     dem_body_motion motion;
     dem_strain strain;
     dem_fracture fracture;
+    body_content content;
     double mass;
 } sums;
+
+static body_content content_of(const dem_lattice *lattice)
+{
+    CLEANUP(touching_bodies_free) touching_bodies bodies;
+    assert_ok(touching_bodies_sum_up(&bodies, lattice, &ranks_alone, NULL));
+    return bodies.bodies[0];
+}
 
 /* Four of five triangles are broken, without an order: single nodes and small pieces are left beside larger ones. */
 static void break_some(dem_simulation *s, const dem_lattice *l)
@@ -158,8 +167,8 @@ static sums sums_of(const dem_lattice *lattice, bool broken)
     CLEANUP(support_close) support_run r;
     support_open(&r, lattice, NULL, 0, &options);
     if (broken) break_some(r.simulation, lattice);
-    const sums all = {ask_energy(r.simulation), ask_body(r.simulation, 0), ask_strain(r.simulation),
-                      ask_fracture(r.simulation), dem_model_mass(r.model)};
+    const sums all = {ask_energy(r.simulation),   ask_body(r.simulation, 0), ask_strain(r.simulation),
+                      ask_fracture(r.simulation), content_of(lattice),       dem_model_mass(r.model)};
     return all;
 }
 
@@ -203,6 +212,7 @@ static void check_sums(bool broken)
     assert_memory_equal(&usual.motion, &shuffled.motion, sizeof usual.motion);
     assert_same_strains(&usual.strain, &shuffled.strain);
     assert_memory_equal(&usual.fracture, &shuffled.fracture, sizeof usual.fracture);
+    assert_memory_equal(&usual.content, &shuffled.content, sizeof usual.content);
     assert_close(usual.mass, shuffled.mass, 0.0);
     assert_true(!broken || (usual.fracture.fragments > 3 && usual.fracture.debris > 0.0));
 }
