@@ -9,7 +9,7 @@
  *  (dem_model_part()). What goes on is *collective*: all ranks make the same calls in the same order, with the same
  *  arguments, and wait for each other in them. These are
  *
- *      dem_model_create_mpi(), dem_model_create_mpi_for(), and dem_model_destroy() of such models
+ *      dem_model_create_mpi(), dem_model_create_mpi_for(), and of such models dem_model_omega(), dem_model_destroy()
  *      dem_simulation_create(), dem_simulation_resume(), dem_simulation_observe(), dem_simulation_advance()
  *      all that is asked of a motion: dem_simulation_state(), dem_simulation_gather(), and what follows them in
  *      dem/simulation.h, up to dem_simulation_residual()

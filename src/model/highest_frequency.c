@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "base/reduce.h"
 #include "base/status.h"
+#include "domain/halo.h"
 #include "lattice/lattice.h"
 #include "model/tangent_stiffness.h"
 
@@ -25,6 +26,7 @@ typedef struct lanczos {
     double beside[most_iterations];   /* beside[k] joins k and k + 1 */
     double *vector, *last;            /* [n][2] q_m, q_(m-1) */
     double *scaled, *image;           /* [n][2] */
+    halo halo;                        /* of a model that ranks share */
 } lanczos;
 
 /* ---- the tridiagonal matrix ---- */
@@ -74,10 +76,17 @@ static double last_component(const lanczos *l, double theta)
 
 /* ---- the iteration ---- */
 
+/* Over own nodes. */
 static double product(const lanczos *l, const double *a, const double *b)
 {
-    const exact_sum sum = exact_terms_product(a, b, 2 * l->model->lattice.n_nodes);
-    return reduce_sum(l->model->ranks, &sum);
+    const dem_model *model = l->model;
+    exact_sum sum = {0};
+    for (dem_index i = 0, end; i < model->lattice.n_nodes; i = end) {
+        if (!domain_run(model->domain, i, model->lattice.n_nodes, &end)) continue;
+        exact_sum part = exact_terms_product(a + 2 * i, b + 2 * i, 2 * (end - i));
+        exact_sum_join(&sum, &part);
+    }
+    return reduce_sum(model->ranks, &sum);
 }
 
 /* A random unit vector, so that every mode is in it; 0 where a node is fixed. The seed is constant: every run finds the
@@ -85,7 +94,8 @@ static double product(const lanczos *l, const double *a, const double *b)
 static void start(lanczos *l)
 {
     for (dem_index k = 0; k < 2 * l->model->lattice.n_nodes; k++) {
-        uint64_t state = 1 + (uint64_t)k * random_stride;
+        const dem_index number = 2 * model_node(l->model, k / 2) + k % 2;
+        uint64_t state = 1 + (uint64_t)number * random_stride;
         const double value = random_next(&state);
         l->vector[k] = l->model->inverse_mass[k / 2] > 0.0 ? value : 0.0;
     }
@@ -93,13 +103,14 @@ static void start(lanczos *l)
     for (dem_index k = 0; k < 2 * l->model->lattice.n_nodes && size > 0.0; k++) l->vector[k] /= size;
 }
 
-/* image = M^-1/2 K M^-1/2 vector. */
+/* image = M^-1/2 K M^-1/2 vector. Of ghosts the owners have what neighbours need. */
 static void apply(lanczos *l)
 {
     const dem_model *model = l->model;
     const dem_index n = model->lattice.n_nodes;
     for (dem_index i = 0; i < n; i++)
         vec2_put(l->scaled, i, vec2_scale(sqrt(model->inverse_mass[i]), vec2_at(l->vector, i)));
+    if (model->domain != NULL) halo_exchange(&l->halo, &l->scaled, 1);
     tangent_apply(model, model->lattice.x, l->scaled, l->image);
     for (dem_index i = 0; i < n; i++)
         vec2_put(l->image, i, vec2_scale(sqrt(model->inverse_mass[i]), vec2_at(l->image, i)));
@@ -137,24 +148,32 @@ static dem_status iterate(lanczos *l, double *omega)
                        (int)most_iterations, *omega);
 }
 
-/* The four vectors are one allocation; the tridiagonal matrix is too large for the stack. */
+/* The four vectors are one allocation. */
+static dem_status allocate(lanczos *l)
+{
+    const dem_index n = l->model->lattice.n_nodes;
+    double *vectors = lattice_zeros(4 * n, 2 * sizeof *vectors);
+    CHECK(vectors, DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)n);
+    l->vector = vectors;
+    l->last = vectors + 2 * n;
+    l->scaled = vectors + 4 * n;
+    l->image = vectors + 6 * n;
+    return l->model->domain != NULL ? halo_create(&l->halo, l->model->ranks, l->model->domain, 2, 1) : DEM_OK;
+}
+
+/* The tridiagonal matrix is too large for the stack. */
 dem_status dem_model_omega(const dem_model *model, double *omega)
 {
     CHECK(model != NULL && omega != NULL, DEM_ERROR_ARGUMENT, "dem_model_omega: %s is NULL", model ? "omega" : "model");
-    const dem_index n = model->lattice.n_nodes;
-    double *vectors = lattice_zeros(4 * n, 2 * sizeof *vectors), found = 0.0;
     lanczos *l = calloc(1, sizeof *l);
-    dem_status status = DEM_ERROR_MEMORY;
-    if (vectors == NULL || l == NULL) {
-        (void)status_fail(status, "out of memory for %lld nodes", (long long)n);
-    } else {
-        *l = (lanczos){.model = model, .vector = vectors, .last = vectors + 2 * n};
-        l->scaled = vectors + 4 * n;
-        l->image = vectors + 6 * n;
-        status = iterate(l, &found);
-        if (status == DEM_OK) *omega = found;
-    }
-    free(vectors);
+    CHECK_MEMORY(l);
+    double found = 0.0;
+    l->model = model;
+    dem_status status = allocate(l);
+    if (status == DEM_OK) status = iterate(l, &found);
+    if (status == DEM_OK) *omega = found;
+    free(l->vector);
+    halo_destroy(&l->halo);
     free(l);
     return status;
 }

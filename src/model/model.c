@@ -224,6 +224,7 @@ static void compile_scales(dem_model *m)
     m->spacing = isfinite(shortest) ? shortest : 0.0;
     m->omega_max = reduce_max(m->ranks, m->omega_max);
     m->n_bodies = (dem_index)reduce_max(m->ranks, (double)m->n_bodies);
+    m->edges_are_springs = !reduce_any(m->ranks, !m->edges_are_springs);
     exact_sum mass = {0};
     exact_sum_add_array(&mass, l->mass, l->n_nodes);
     m->mass = reduce_sum(m->ranks, &mass);

@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* highest_frequency.c: the highest frequency, against closed forms and GSL. */
 #include "harness/cleanup_gsl.h"
+#include "unit/domain/shared_lattice.h"
 #include "verification/dense.h"
 
 #include <string.h>
+
+#include "harness/rank_threads.h"
+#include "model/shared_model.h"
 
 /* sqrt(E/d0 (1/m1 + 1/m2)); one fixed: sqrt(E/d0/m2). */
 TEST(a_pair_has_the_frequency_of_its_reduced_mass)
@@ -109,6 +113,45 @@ TEST(what_is_broken_leaves_the_bound_of_the_whole)
         CLEANUP(free_model) dem_model *second = support_model(&broken, NULL, 0);
         assert_ok(dem_model_omega(second, &omega));
         assert_true(omega < dem_model_omega_max(first));
+    }
+}
+
+/* ---- ranks ---- */
+
+enum { N_RANKS = 3 };
+
+typedef struct shared {
+    const dem_private_whole *whole;
+    double omega[N_RANKS];
+    dem_status status[N_RANKS];
+} shared;
+
+static void find_shared(const ranks *r, void *context)
+{
+    shared *s = context;
+    CLEANUP(free_model) dem_model *model = NULL;
+    dem_status *status = &s->status[r->rank];
+    *status = dem_private_share_model(&model, s->whole, r);
+    if (*status == DEM_OK) *status = dem_model_omega(model, &s->omega[r->rank]);
+}
+
+/* Above a floor, so that ranks have nodes in common, too. */
+TEST(ranks_find_the_bits_of_one_process)
+{
+    const double points[4] = {-1.0, -0.05, 1.0, -0.05};
+    const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = points);
+    CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+    CLEANUP(free_model) dem_model *alone = support_model(&l, &floor, 1);
+    for (int n = 0; n < 2; n++) {
+        const dem_private_whole whole = {.lattice = &l, .obstacles = &floor, .n_obstacles = n};
+        shared s = {.whole = &whole};
+        double omega;
+        assert_ok(dem_model_omega(alone, &omega));
+        rank_threads_run(N_RANKS, find_shared, &s);
+        for (int k = 0; k < N_RANKS; k++) {
+            assert_ok(s.status[k]);
+            assert_memory_equal(&s.omega[k], &omega, sizeof omega);
+        }
     }
 }
 
