@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* While a part is advanced its observers on rank 0 call those of the whole, and on other ranks they take calls until
- * the leader lets them go on. Of the whole's state only what is asked for is gathered. What an observer returns is the
- * status of all ranks, so that a run stops at once, as that of a process alone. */
+/* While a part is advanced its observers on rank 0 call those of the whole (leader_observers.c), and on other ranks
+ * they take calls until the leader lets them go on. */
 #include "simulation/led_run.h"
 
 #include <stdlib.h>
@@ -10,69 +9,14 @@
 #include "base/checkpoint_entries.h"
 #include "base/reduce.h"
 #include "base/status.h"
-#include "contact/near_contact.h"
-#include "domain/balance.h"
 #include "domain/gather.h"
 #include "model/shared_model.h"
+#include "simulation/leader_observers.h"
 #include "simulation/rank_shares.h"
 #include "simulation/shared_breaks.h"
-#include "simulation/shared_peaks.h"
 #include "simulation/shared_problem.h"
 #include "simulation/shared_use.h"
 #include "simulation/step_parts.h"
-
-/* A frame of one of the whole's observers. */
-typedef struct frame_relay {
-    led_run *run;
-    int observer;
-} frame_relay;
-
-/* Calls of observers. */
-typedef struct calls {
-    dem_index n;    /* for events, breaks and frames, */
-    dem_index step; /* and the last step for which there was one; -1: there was none */
-} calls;
-
-/* What each rank has of it. */
-struct led_run {
-    ranks ranks;           /* which do not end with the model */
-    dem_simulation *whole; /* NULL: this rank follows */
-    dem_model *model;      /* of the part */
-    dem_simulation *part;  /* NULL: there is none */
-    shared_peaks peaks;    /* of the part, and on rank 0 whose they are */
-    bool is_observed;
-    frame_relay frames[OBSERVERS_MOST];
-    double busy, entered;       /* s of work since nodes were shared out, and busy_time() in enter() */
-    balance balance;            /* of them. On rank 0: */
-    const dem_options *options; /* of the whole */
-    near_contact near;          /* of its surfaces */
-    bool weighs_anew;           /* nodes are about to be shared out by other weights */
-    bool shares_anew;           /* the nodes, from the checkpoint that the run has just taken */
-    calls made, seen;           /* since the last checkpoint, and before it was gone back to. On all ranks */
-};
-
-/* ---- work of all ranks together ---- */
-
-static double busy_time(const led_run *l)
-{
-    return l->ranks.busy != NULL ? l->ranks.busy(l->ranks.self) : 0.0;
-}
-
-/* From here to leave() all ranks work together: one that is out of memory cannot report it and go on. The time counts
- * as work. */
-static void enter(led_run *l)
-{
-    status_watch_memory(l->ranks.lacks_memory, l->ranks.program);
-    l->entered = busy_time(l);
-}
-
-static void leave(led_run *l)
-{
-    const double now = busy_time(l);
-    l->busy += now - l->entered;
-    l->entered = now;
-    status_watch_memory(NULL, NULL);
-}
 
 /* ---- parts ---- */
 
@@ -115,11 +59,11 @@ static dem_status create_part(led_run *l, const shared_problem *p, bool resumes,
 static dem_status create(led_run *l, dem_checkpoint *entries, bool resumes, const dem_checkpoint *checkpoint)
 {
     shared_problem p = {0};
-    enter(l);
+    led_ranks_enter(l);
     dem_status status = checkpoint_entries_share(&l->ranks, entries, entries);
     if (status == DEM_OK) status = reduce_status(&l->ranks, shared_problem_get(&p, entries), 0.0);
     if (status == DEM_OK) status = create_part(l, &p, resumes, checkpoint);
-    leave(l);
+    led_ranks_leave(l);
     shared_problem_free(&p);
     if (status != DEM_OK) drop(l);
     if (l->weighs_anew)
@@ -131,157 +75,12 @@ static dem_status create(led_run *l, dem_checkpoint *entries, bool resumes, cons
     return status;
 }
 
-/* Tells rank 0 how long all have worked since nodes were shared out.  \return false if nobody knows */
-static bool collect_busy(led_run *l)
-{
-    if (l->ranks.busy == NULL) return false;
-    balance_collect(&l->balance, &l->ranks, l->busy + busy_time(l) - l->entered);
-    return true;
-}
-
-/* ---- again from a checkpoint ---- */
-
-static void pass_checkpoint(led_run *l)
-{
-    l->made = l->seen = (calls){.step = -1};
-}
-
-/* Observers see nothing twice: the same steps bring the same events, breaks and frames. */
-static bool has_seen(led_run *l)
-{
-    return l->made.n++ < l->seen.n;
-}
-
-static bool has_seen_step(led_run *l, const dem_simulation *part)
-{
-    l->made.step = run_count_steps(part);
-    return l->made.step <= l->seen.step;
-}
-
 /* Whether an event has stopped all parts, as it concerns nodes that not all of them have. */
 static bool goes_back(led_run *l)
 {
     if (l->part == NULL || !event_queue_lacks_nodes(&l->part->queue)) return false;
-    l->seen = l->made;
-    l->made = (calls){.step = -1};
+    led_ranks_go_back(l);
     return true;
-}
-
-/* ---- the leader's observers ---- */
-
-/* The whole shows what its part does; what is known of that is asked for anew. */
-static void show(const led_run *l)
-{
-    dem_simulation *whole = l->whole;
-    whole->t = l->part->t;
-    whole->step = l->part->step;
-    whole->seen_t = l->part->seen_t;
-    whole->seen = whole->frame;
-    *whole->measures = (run_measures){.has_events = true};
-}
-
-/* Rank 0 is by itself while it calls its observers. */
-static led_run *hold(led_run *l)
-{
-    leave(l);
-    show(l);
-    return l;
-}
-
-static dem_status release(led_run *l, dem_status status)
-{
-    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_GO_ON, .number = (dem_index)status});
-    enter(l);
-    return status;
-}
-
-static dem_status lead_step(void *context, const dem_simulation *part)
-{
-    if (has_seen_step(context, part)) return DEM_OK;
-    led_run *l = hold(context);
-    observers *a = &l->whole->observers;
-    const accepted_step step = {run_count_steps(part), part->t, observers_want_touching(a) && run_touches(part)};
-    return release(l, observers_step(a, l->whole, &step));
-}
-
-/* Of an observer that is called before something touches, and behind such a step, where it has nothing to show. What
- * is before a step that has been seen until all went back has been shown. */
-static bool is_before(const led_run *l, const dem_simulation *part)
-{
-    return part->in_hand && run_count_steps(part) > l->seen.step;
-}
-
-static dem_status lead_before(void *context, const dem_simulation *part)
-{
-    if (!is_before(context, part)) return DEM_OK;
-    led_run *l = hold(context);
-    const accepted_step before = {run_count_steps(part) - 1, part->t, false};
-    return release(l, observers_before_touching(&l->whole->observers, l->whole, &before));
-}
-
-static dem_status lead_event(void *context, const dem_simulation *part, const dem_event *event)
-{
-    (void)part;
-    if (has_seen(context)) return DEM_OK;
-    led_run *l = hold(context);
-    return release(l, observers_event(&l->whole->observers, l->whole, event));
-}
-
-static dem_status lead_break(void *context, const dem_simulation *part, const dem_break *what)
-{
-    (void)part;
-    if (has_seen(context)) return DEM_OK;
-    led_run *l = hold(context);
-    return release(l, observers_broken(&l->whole->observers, l->whole, what));
-}
-
-static dem_status lead_frame(void *context, const dem_simulation *part)
-{
-    const frame_relay *f = context;
-    (void)part;
-    if (has_seen(f->run)) return DEM_OK;
-    led_run *l = hold(f->run);
-    return release(l, observers_frame(&l->whole->observers, f->observer, l->whole));
-}
-
-/* The whole's is that of the part, which has gathered all nodes, but for overlaps, which only the whole looks for. */
-static dem_status take_checkpoint(dem_simulation *whole, const dem_checkpoint *from)
-{
-    whole->has_checkpoint = false;
-    TRY(checkpoint_entries_copy(whole->checkpoint, from));
-    TRY(dem_checkpoint_put(whole->checkpoint, "overlap", &whole->overlap.found, sizeof whole->overlap.found));
-    whole->has_checkpoint = true;
-    return observers_checkpoint(&whole->observers, whole, whole->checkpoint);
-}
-
-/* \param checkpoint  NULL: of the start */
-static void look_ahead(led_run *l, const dem_checkpoint *checkpoint)
-{
-    const dem_lattice *lattice = &l->whole->model->lattice;
-    near_contact_state state = {l->whole->t, lattice->position, lattice->velocity};
-    size_t size;
-    if (checkpoint != NULL) {
-        state.x = dem_checkpoint_find(checkpoint, "state", &size);
-        state.v = state.x + state_velocities(&l->whole->layout);
-    }
-    near_contact_look(&l->near, &state);
-}
-
-/* A part goes on from a checkpoint as one does that begins there: so nodes may be shared out anew, or other ones be
- * common, for which the advance of all parts stops. */
-static dem_status lead_checkpoint(void *context, const dem_simulation *part, dem_checkpoint *checkpoint)
-{
-    led_run *l = context;
-    const bool pays = collect_busy(l) && balance_pays(&l->balance);
-    (void)part;
-    (void)hold(l);
-    pass_checkpoint(l);
-    dem_status status = take_checkpoint(l->whole, checkpoint);
-    if (status == DEM_OK) look_ahead(l, l->whole->checkpoint);
-    l->weighs_anew = status == DEM_OK && pays;
-    l->shares_anew =
-        l->weighs_anew || (status == DEM_OK && near_contact_is_outdated(&l->near, l->busy, l->balance.price));
-    return release(l, l->shares_anew ? DEM_STOPPED : status);
 }
 
 /* ---- followers ---- */
@@ -290,26 +89,26 @@ static rank_call serve(led_run *l);
 
 static dem_status wait_for_leader(led_run *l)
 {
-    leave(l);
+    led_ranks_leave(l);
     const rank_call last = serve(l);
-    enter(l);
+    led_ranks_enter(l);
     return last.number == DEM_OK ? DEM_OK : status_repeat((dem_status)last.number, "rank 0 has ended the run");
 }
 
 /* An observer of the leader's, seen from a follower. */
 static dem_status follow_observer(led_run *l)
 {
-    return has_seen(l) ? DEM_OK : wait_for_leader(l);
+    return led_ranks_have_seen(l) ? DEM_OK : wait_for_leader(l);
 }
 
 static dem_status follow_step(void *context, const dem_simulation *part)
 {
-    return has_seen_step(context, part) ? DEM_OK : wait_for_leader(context);
+    return led_ranks_have_seen_step(context, part) ? DEM_OK : wait_for_leader(context);
 }
 
 static dem_status follow_before(void *context, const dem_simulation *part)
 {
-    return is_before(context, part) ? wait_for_leader(context) : DEM_OK;
+    return led_ranks_are_before(context, part) ? wait_for_leader(context) : DEM_OK;
 }
 
 static dem_status follow_event(void *context, const dem_simulation *part, const dem_event *event)
@@ -336,36 +135,35 @@ static dem_status follow_checkpoint(void *context, const dem_simulation *part, d
 {
     (void)part;
     (void)checkpoint;
-    (void)collect_busy(context);
-    pass_checkpoint(context);
+    (void)led_ranks_collect_busy(context);
+    led_ranks_pass_checkpoint(context);
     return wait_for_leader(context);
 }
 
 /* ---- what all ranks do ---- */
 
+static const led_observers follower_observers = {.step = follow_step,
+                                                 .before = follow_before,
+                                                 .event = follow_event,
+                                                 .broken = follow_break,
+                                                 .frame = follow_frame,
+                                                 .checkpoint = follow_checkpoint};
+
 static dem_status observe(led_run *l, const rank_call *o)
 {
-    const bool leads = l->whole != NULL;
-    dem_observer steps = {.struct_size = sizeof steps,
-                          .step = leads ? lead_step : follow_step,
-                          .checkpoint = leads ? lead_checkpoint : follow_checkpoint,
-                          .context = l};
-    if (o->number & RANK_CALL_WITH_EVENTS) steps.event = leads ? lead_event : follow_event;
-    if (o->number & RANK_CALL_WITH_BREAKS) steps.broken = leads ? lead_break : follow_break;
+    const led_observers *own = l->whole != NULL ? &leader_observers : &follower_observers;
+    dem_observer steps = {.struct_size = sizeof steps, .step = own->step, .checkpoint = own->checkpoint, .context = l};
+    if (o->number & RANK_CALL_WITH_EVENTS) steps.event = own->event;
+    if (o->number & RANK_CALL_WITH_BREAKS) steps.broken = own->broken;
     for (int k = 0; k < OBSERVERS_MOST; k++) {
         l->frames[k] = (frame_relay){l, k};
-        const dem_observer frame = {.struct_size = sizeof frame,
-                                    .interval = o->intervals[k],
-                                    .frame = leads ? lead_frame : follow_frame,
-                                    .context = &l->frames[k]};
+        const dem_observer frame = {
+            .struct_size = sizeof frame, .interval = o->intervals[k], .frame = own->frame, .context = &l->frames[k]};
         if (o->intervals[k] > 0.0) TRY(dem_simulation_observe(l->part, &frame));
     }
     TRY(dem_simulation_observe(l->part, &steps));
-    const dem_observer before = {.struct_size = sizeof before,
-                                 .step = leads ? lead_before : follow_before,
-                                 .step_every = INT64_MAX,
-                                 .step_touching = 1,
-                                 .context = l};
+    const dem_observer before = {
+        .struct_size = sizeof before, .step = own->before, .step_every = INT64_MAX, .step_touching = 1, .context = l};
     if (o->number & RANK_CALL_WITH_TOUCHING) TRY(dem_simulation_observe(l->part, &before));
     l->is_observed = true;
     return DEM_OK;
@@ -404,7 +202,7 @@ static void create_follower(led_run *l, bool resumes)
 static void take_part(led_run *l, const rank_call *o)
 {
     answer ignored = {.struct_size = sizeof ignored};
-    enter(l);
+    led_ranks_enter(l);
     switch (o->kind) {
     case RANK_CALL_CREATE:
         create_follower(l, o->number != 0);
@@ -431,7 +229,7 @@ static void take_part(led_run *l, const rank_call *o)
         (void)rank_call_answer(l->part, o, &ignored);
         break;
     }
-    leave(l);
+    led_ranks_leave(l);
 }
 
 /* Takes calls until one lets this rank go on, or ends its work. */
@@ -456,9 +254,9 @@ static dem_status attach(led_run *l)
     for (int k = 0; k < a->n; k++)
         if (a->members[k].observer.frame != NULL) o.intervals[k] = a->members[k].observer.interval;
     o = rank_call_send(&l->ranks, o);
-    enter(l);
+    led_ranks_enter(l);
     const dem_status status = observe(l, &o);
-    leave(l);
+    led_ranks_leave(l);
     return status;
 }
 
@@ -466,9 +264,9 @@ dem_status led_run_ask(const dem_simulation *whole, rank_call_kind what, dem_ind
 {
     led_run *l = whole->leads;
     const rank_call o = rank_call_send(&l->ranks, (rank_call){.kind = what, .number = number});
-    enter(l);
+    led_ranks_enter(l);
     const dem_status status = rank_call_answer(l->part, &o, out);
-    leave(l);
+    led_ranks_leave(l);
     return status;
 }
 
@@ -496,9 +294,9 @@ void led_run_gather(dem_simulation *whole)
 {
     led_run *l = whole->leads;
     (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_GATHER});
-    enter(l);
+    led_ranks_enter(l);
     (void)gather(l);
-    leave(l);
+    led_ranks_leave(l);
 }
 
 void led_run_look_for_overlaps(dem_simulation *part)
@@ -507,7 +305,7 @@ void led_run_look_for_overlaps(dem_simulation *part)
     const dem_model *m = part->model;
     double *x = whole != NULL ? whole->frame : NULL;
     const gather_items nodes = gather_nodes(m->domain);
-    /* A lack of memory ends all ranks: enter(). */
+    /* A lack of memory ends all ranks: led_ranks_enter(). */
     const dem_status status = gather_rows(m->ranks, &nodes, (size_t)part->layout.dim * sizeof *x, part->y, x);
     if (status != DEM_OK || whole == NULL) return;
     whole->measures->has_state = whole->measures->has_elements = false;
@@ -520,9 +318,9 @@ void led_run_look_for_overlaps(dem_simulation *part)
 static dem_status pass_peaks(led_run *l, rank_call_kind what, int number)
 {
     const rank_call o = rank_call_send(&l->ranks, (rank_call){.kind = what, .number = number});
-    enter(l);
+    led_ranks_enter(l);
     const dem_status status = shared_peaks_answer(&l->peaks, l->part, &o);
-    leave(l);
+    led_ranks_leave(l);
     return status;
 }
 
@@ -581,10 +379,10 @@ static dem_status begin_parts(led_run *l, dem_checkpoint *entries, const dem_che
 
 static dem_status put_problem(led_run *l, dem_checkpoint **entries)
 {
-    enter(l);
+    led_ranks_enter(l);
     dem_status status = dem_checkpoint_create(entries);
     if (status == DEM_OK) status = shared_problem_put(*entries, l->whole->model, l->options);
-    leave(l);
+    led_ranks_leave(l);
     return status;
 }
 
@@ -600,9 +398,9 @@ static dem_status begin(led_run *l, const dem_checkpoint *checkpoint)
 
 static dem_status weigh_anew(led_run *l)
 {
-    enter(l);
+    led_ranks_enter(l);
     const dem_status status = balance_weigh(&l->balance, &l->whole->model->lattice);
-    leave(l);
+    led_ranks_leave(l);
     return status;
 }
 
@@ -626,10 +424,10 @@ static dem_status go_back(led_run *l)
 static dem_status advance_parts(led_run *l, double t_end)
 {
     (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_ADVANCE, .t = t_end});
-    enter(l);
+    led_ranks_enter(l);
     const dem_status status = dem_simulation_advance(l->part, t_end);
-    leave(l);
-    show(l);
+    led_ranks_leave(l);
+    leader_observers_show(l);
     return status;
 }
 
@@ -661,7 +459,7 @@ static dem_status lead(led_run *l, const dem_checkpoint *checkpoint)
     CHECK(l->options->force == NULL, DEM_ERROR_ARGUMENT, "rank 0 cannot lead a run with an external force");
     TRY(balance_create(&l->balance, l->ranks.size));
     if (l->ranks.size > 1) TRY(near_contact_create(&l->near, l->whole->model, &l->whole->options));
-    look_ahead(l, checkpoint);
+    leader_observers_look_ahead(l, checkpoint);
     near_contact_take(&l->near, 0.0, 0.0);
     return begin(l, checkpoint);
 }
@@ -684,7 +482,7 @@ dem_status dem_private_lead(dem_simulation *whole, const ranks *r, const dem_opt
     CHECK_MEMORY(l);
     *l = (led_run){.ranks = *r, .whole = whole, .options = options, .weighs_anew = true};
     l->ranks.end = NULL;
-    pass_checkpoint(l);
+    led_ranks_pass_checkpoint(l);
     step_parts_destroy(whole); /* before there is memory for parts */
     const dem_status status = lead(l, checkpoint);
     if (status != DEM_OK) {
@@ -692,7 +490,7 @@ dem_status dem_private_lead(dem_simulation *whole, const ranks *r, const dem_opt
         return status;
     }
     whole->leads = l;
-    show(l);
+    leader_observers_show(l);
     return DEM_OK;
 }
 
@@ -708,7 +506,7 @@ dem_index dem_private_follow(const ranks *r)
 {
     led_run l = {.ranks = *r};
     l.ranks.end = NULL;
-    pass_checkpoint(&l);
+    led_ranks_pass_checkpoint(&l);
     const rank_call last = serve(&l);
     drop(&l);
     return last.number;

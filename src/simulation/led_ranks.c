@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "simulation/led_ranks.h"
+
+#include "base/status.h"
+
+static double busy_time(const led_run *l)
+{
+    return l->ranks.busy != NULL ? l->ranks.busy(l->ranks.self) : 0.0;
+}
+
+void led_ranks_enter(led_run *l)
+{
+    status_watch_memory(l->ranks.lacks_memory, l->ranks.program);
+    l->entered = busy_time(l);
+}
+
+void led_ranks_leave(led_run *l)
+{
+    const double now = busy_time(l);
+    l->busy += now - l->entered;
+    l->entered = now;
+    status_watch_memory(NULL, NULL);
+}
+
+bool led_ranks_collect_busy(led_run *l)
+{
+    if (l->ranks.busy == NULL) return false;
+    balance_collect(&l->balance, &l->ranks, l->busy + busy_time(l) - l->entered);
+    return true;
+}
+
+/* ---- again from a checkpoint ---- */
+
+void led_ranks_pass_checkpoint(led_run *l)
+{
+    l->made = l->seen = (calls){.step = -1};
+}
+
+bool led_ranks_have_seen(led_run *l)
+{
+    return l->made.n++ < l->seen.n;
+}
+
+bool led_ranks_have_seen_step(led_run *l, const dem_simulation *part)
+{
+    l->made.step = run_count_steps(part);
+    return l->made.step <= l->seen.step;
+}
+
+bool led_ranks_are_before(const led_run *l, const dem_simulation *part)
+{
+    return part->in_hand && run_count_steps(part) > l->seen.step;
+}
+
+void led_ranks_go_back(led_run *l)
+{
+    l->seen = l->made;
+    l->made = (calls){.step = -1};
+}
