@@ -136,7 +136,7 @@ static dem_status open_whole(whole_lattice *w, const ranks *r, const dem_model *
 {
     mesh_boundary boundary = {0};
     *w = (whole_lattice){.model = model};
-    TRY(touching_bodies_sum_up(&w->bodies, &model->lattice, &ranks_alone, NULL));
+    TRY(touching_bodies_sum_up(&w->bodies, &model->lattice));
     w->is_common = lattice_zeros(model->lattice.n_nodes, sizeof *w->is_common);
     CHECK_MEMORY(w->is_common);
     if (shares->touching) TRY(mesh_boundary_create(&boundary, &model->lattice, NULL));

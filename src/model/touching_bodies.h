@@ -5,7 +5,6 @@
 #ifndef DEM_MODEL_TOUCHING_BODIES_H
 #define DEM_MODEL_TOUCHING_BODIES_H
 
-#include "base/ranks.h"
 #include "domain/domain.h"
 #include "model/mesh_boundary.h"
 
@@ -27,13 +26,9 @@ typedef struct touching_bodies {
  *  \return DEM_ERROR_MEMORY */
 dem_status touching_bodies_create(touching_bodies *out, const dem_lattice *lattice);
 
-/** The same without the boundary. The sums are exact: their bits depend neither on the order of springs and triangles
- *  nor on the ranks that have them. Collective.
- *  \param lattice  its bodies have the numbers of the whole
- *  \param is_own   [n_nodes] whether this rank adds what has the node for its lowest; NULL: it adds all
+/** The same without the boundary. The sums are exact: their bits do not depend on the order of springs and triangles.
  *  \return DEM_ERROR_MEMORY */
-dem_status touching_bodies_sum_up(touching_bodies *out, const dem_lattice *lattice, const ranks *r,
-                                  const unsigned char *is_own);
+dem_status touching_bodies_sum_up(touching_bodies *out, const dem_lattice *lattice);
 void touching_bodies_free(touching_bodies *o);
 
 /** The number in the whole lattice of node i of the lattice with these bodies; NULL stands for the whole. */

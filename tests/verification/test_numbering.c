@@ -146,7 +146,7 @@ typedef struct sums {
 static body_content content_of(const dem_lattice *lattice)
 {
     CLEANUP(touching_bodies_free) touching_bodies bodies;
-    assert_ok(touching_bodies_sum_up(&bodies, lattice, &ranks_alone, NULL));
+    assert_ok(touching_bodies_sum_up(&bodies, lattice));
     return bodies.bodies[0];
 }
 

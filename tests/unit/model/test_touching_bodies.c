@@ -3,15 +3,12 @@
 #include "model/touching_bodies.h"
 
 #include "base/vec2.h"
-#include "harness/rank_threads.h"
 #include "verification/support.h"
-
-enum { N_RANKS = 3, N_BODIES = 11 };
 
 static const dem_material rubber =
     SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0);
 
-/* Of two squares. */
+/* Of two squares. Sums in the order of springs and triangles are off by a rounding for each of these at most. */
 TEST(bodies_have_their_boundary_and_their_sums)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = support_squares(0.02, 0.01, &rubber, (const double[2]){0.05, 0.0});
@@ -32,53 +29,6 @@ TEST(bodies_have_their_boundary_and_their_sums)
         assert_close(o.bodies[b].area, area, 1e-15 * (double)l.n_triangles * area);
         assert_close(o.bodies[b].springs, sums[b], 1e-15 * (double)l.n_springs * sums[b]);
         assert_true(area > 0.0);
-    }
-}
-
-/* More than are reduced at once, in a row; stiffnesses of springs are up to 1e8 apart, so that most sums in another
- * order have other bits. */
-static dem_lattice make_row(void)
-{
-    dem_lattice row = dem_lattice_empty();
-    for (int b = 0; b < N_BODIES; b++) {
-        CLEANUP(dem_lattice_free) dem_lattice one = support_rectangle(0.02, 0.01, 2e-3, &rubber);
-        dem_lattice_move(&one, 0.1 * b, (const double[2]){0.05 * b, 0.0});
-        assert_ok(dem_lattice_append(&row, &one));
-    }
-    for (dem_index k = 0; k < row.n_springs; k++) row.stiffness[k] *= exp(10.0 * sin(12.9898 * (double)k));
-    return row;
-}
-
-/* What each rank finds. */
-typedef struct shared {
-    const dem_lattice *lattice;
-    touching_bodies bodies[N_RANKS];
-    dem_status status[N_RANKS];
-} shared;
-
-/* Nodes are shared out in turn. */
-static void sum_up(const ranks *r, void *context)
-{
-    shared *s = context;
-    const dem_index n = s->lattice->n_nodes;
-    CLEANUP(free_memory) unsigned char *is_own = malloc((size_t)n);
-    for (dem_index i = 0; i < n; i++) is_own[i] = i % r->size == r->rank;
-    s->status[r->rank] = touching_bodies_sum_up(&s->bodies[r->rank], s->lattice, r, is_own);
-}
-
-TEST(sums_over_bodies_do_not_depend_on_who_adds_them)
-{
-    CLEANUP(dem_lattice_free) dem_lattice row = make_row();
-    CLEANUP(touching_bodies_free) touching_bodies alone;
-    shared s = {.lattice = &row};
-    assert_ok(touching_bodies_sum_up(&alone, &row, &ranks_alone, NULL));
-    assert_int_equal(alone.n_bodies, N_BODIES);
-    rank_threads_run(N_RANKS, sum_up, &s);
-    for (int k = 0; k < N_RANKS; k++) {
-        assert_ok(s.status[k]);
-        assert_int_equal(s.bodies[k].n_bodies, N_BODIES);
-        assert_memory_equal(s.bodies[k].bodies, alone.bodies, N_BODIES * sizeof *alone.bodies);
-        touching_bodies_free(&s.bodies[k]);
     }
 }
 
