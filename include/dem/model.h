@@ -173,7 +173,8 @@ typedef struct dem_constants {
  *  volume of the triangles; three strains give C. It is the material's, not the structure's: a porous body is held at
  *  the rims of its pores. Exact for regular lattices, where the inside has no cause to move. Fixed nodes count as free.
  *  \param body  0 <= body < n_bodies
- *  \return DEM_ERROR_MODEL for a body without triangles or whose inside is not stable; DEM_ERROR_MEMORY */
+ *  \return DEM_ERROR_MODEL for a body without triangles or whose inside is not stable; DEM_ERROR_ARGUMENT also for a
+ *  model that several ranks share; DEM_ERROR_MEMORY */
 DEM_API dem_status dem_model_constants(const dem_model *model, dem_index body, dem_constants *out);
 
 /** Total mass, kg. */

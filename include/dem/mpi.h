@@ -9,7 +9,7 @@
  *  (dem_model_part()). What goes on is *collective*: all ranks make the same calls in the same order, with the same
  *  arguments, and wait for each other in them. These are
  *
- *      dem_model_create_mpi(), dem_model_create_mpi_for(), and of such models dem_model_omega(), dem_model_destroy()
+ *      dem_model_create_mpi(), dem_model_create_mpi_for(); dem_model_omega() and dem_model_destroy() of such models
  *      dem_simulation_create(), dem_simulation_resume(), dem_simulation_observe(), dem_simulation_advance()
  *      all that is asked of a motion: dem_simulation_state(), dem_simulation_gather(), and what follows them in
  *      dem/simulation.h, up to dem_simulation_residual()
@@ -42,7 +42,8 @@
  *  itself is refused (DEM_ERROR_ARGUMENT by dem_simulation_create()), unless dem_model_create_mpi_for() knows of it.
  *
  *  Ranks cannot share yet, and refuse: what a program breaks, and a motion that it sets; trajectories, overlaps of
- *  bodies, their fragments and the energy of cracks, which are of the whole lattice at once, that no rank keeps.
+ *  bodies, their fragments, elastic constants and the energy of cracks, which are of the whole lattice at once, that no
+ *  rank keeps.
  *  `mpirun dem_batch` has all but what a program breaks: there rank 0 has the whole besides its part.
  *
  *  MPI is initialised and finalised by the program: models are created after the one and destroyed before the other.

@@ -1298,7 +1298,8 @@ FUNCTIONS: dict[str, tuple[Any, list[Any], str]] = {  # result, arguments, text
         a porous body is held at the rims of its pores. Exact for regular lattices, where the inside has no cause to
         move. Fixed nodes count as free.
         body 0 <= body < n_bodies
-        Returns DEM_ERROR_MODEL for a body without triangles or whose inside is not stable; DEM_ERROR_MEMORY"""),
+        Returns DEM_ERROR_MODEL for a body without triangles or whose inside is not stable; DEM_ERROR_ARGUMENT also
+        for a model that several ranks share; DEM_ERROR_MEMORY"""),
     "dem_model_mass": (c_double, [POINTER(dem_model)],
         """dem_model_mass(model)
         Total mass, kg."""),

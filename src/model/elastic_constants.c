@@ -183,6 +183,8 @@ static dem_status run(loading *l, dem_constants *out)
 dem_status dem_model_constants(const dem_model *model, dem_index body, dem_constants *out)
 {
     CHECK(model != NULL && out != NULL, DEM_ERROR_ARGUMENT, "dem_model_constants: %s is NULL", model ? "out" : "model");
+    CHECK(model->ranks->size == 1, DEM_ERROR_ARGUMENT,
+          "dem_model_constants: %d ranks share the model, of which each has a part alone", model->ranks->size);
     TRY(status_check_number("body", body, model->n_bodies));
     for (dem_index k = 0; k < model->rigid.n; k++)
         CHECK(model->rigid.list[k].number != body, DEM_ERROR_MODEL, "body %lld is rigid: it has no elastic constants",

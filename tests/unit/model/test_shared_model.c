@@ -72,6 +72,31 @@ static void assert_refused(change *how, dem_status status, const char *message)
     }
 }
 
+static void measure_constants(const ranks *r, void *context)
+{
+    sharing *s = context;
+    dem_constants c = SIZED(dem_constants, .youngs_modulus = 7.0);
+    CLEANUP(free_model) dem_model *model = NULL;
+    CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+    if (dem_private_share_model(&model, &(dem_private_whole){.lattice = &l}, r) != DEM_OK) return;
+    s->status[r->rank] = dem_model_constants(model, 0, &c);
+    s->own[r->rank] = c.youngs_modulus != 7.0;
+}
+
+/* A part has another boundary than the whole. */
+TEST(constants_of_parts_are_refused)
+{
+    sharing several = {0}, one = {0};
+    rank_threads_run(N_RANKS, measure_constants, &several);
+    rank_threads_run(1, measure_constants, &one);
+    for (int k = 0; k < N_RANKS; k++) {
+        assert_int_equal(several.status[k], DEM_ERROR_ARGUMENT);
+        assert_int_equal(several.own[k], 0);
+    }
+    assert_int_equal(one.status[0], DEM_OK);
+    assert_int_equal(one.own[0], 1);
+}
+
 static void nudge(dem_lattice *l)
 {
     l->rest_length[1] = nextafter(l->rest_length[1], 1.0);
