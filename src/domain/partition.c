@@ -10,7 +10,7 @@
 #include "base/box.h"
 #include "base/status.h"
 
-static const double nearly_equal = 0.9;
+static const double nearly_equal = 0.9; /* the least length of the upright side over that of the other */
 
 /* A node as it is sorted. */
 typedef struct place {

@@ -42,8 +42,8 @@ typedef struct lattice_block {
     int32_t right, up, back;     /* springs c to c + 1, c to c above, and c + 1 to c above */
     int32_t inverse_mass;        /* [LAYOUT_LANES] 1/kg, 0 where there is no node */
     int32_t upright, overturned; /* [LAYOUT_LANES] areas, m^2, below which the guard of the triangle c, c + 1, c above
-                                    may act, and of c, c above, c - 1 above; -inf: never, or it
-                                    has ghosts alone */
+                                    may act, and of c, c above, c - 1 above; -inf: never, or
+                                    all of its corners are ghosts */
 } lattice_block;
 
 typedef struct lattice_rows {

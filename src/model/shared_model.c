@@ -92,7 +92,10 @@ static bool may_touch(const dem_model *whole, dem_private_touching touching)
 /* Whether all go by options that agree in what the model is made for. */
 static dem_status check_use(const ranks *r, const domain_model_shares *s)
 {
-    const double use[] = {s->use.most, s->use.least, (double)s->use.stiff.least_nodes, s->use.stiff.part, s->touching};
+    const ring_use *u = &s->use;
+    const double use[] = {
+        u->most,       u->least,   (double)u->stiff.least_nodes, u->stiff.part, (double)u->slack.least_nodes,
+        u->slack.part, s->touching};
     CHECK(reduce_alike(r, random_hash(1, use, sizeof use)), DEM_ERROR_ARGUMENT,
           "the %d ranks share a model for options that differ", r->size);
     return DEM_OK;

@@ -16,26 +16,28 @@ TEST(ranks_get_the_same_number_of_nodes_but_for_one)
     }
 }
 
-/* Four nodes at the corners of a rectangle that is wider than high: cut upright, then across. */
-TEST(the_longer_side_is_cut_and_lower_coordinates_come_first)
+static void check_four(const double (*place)[2], int n_ranks, const int32_t *expected)
 {
-    double x[] = {3.0, 1.0, 0.0, 1.0, 3.0, 0.0, 0.0, 0.0};
-    const dem_lattice l = SIZED(dem_lattice, .dim = 2, .n_nodes = 4, .x = x);
+    double x[8];
     int32_t owner[4];
-    assert_ok(partition_bisect(&l, 4, owner));
-    const int32_t expected[4] = {3, 1, 2, 0};
+    memcpy(x, place, sizeof x);
+    const dem_lattice l = SIZED(dem_lattice, .dim = 2, .n_nodes = 4, .x = x);
+    assert_ok(partition_bisect(&l, n_ranks, owner));
     assert_memory_equal(owner, expected, sizeof owner);
 }
 
-/* A row of two stands above another one: they stay whole, though they are a little longer than the way between. */
+/* Four nodes at the corners of a rectangle that is wider than high: cut upright, then across. */
+TEST(the_longer_side_is_cut_and_lower_coordinates_come_first)
+{
+    const double corners[4][2] = {{3.0, 1.0}, {0.0, 1.0}, {3.0, 0.0}, {0.0, 0.0}};
+    check_four(corners, 4, (const int32_t[]){3, 1, 2, 0});
+}
+
+/* Two lattice rows of two nodes stay whole, though they are a little longer than they are apart. */
 TEST(of_nearly_equal_sides_the_upright_one_is_cut)
 {
-    double x[] = {0.0, 0.0, 1.0, 0.0, 0.0, 0.95, 1.0, 0.95};
-    const dem_lattice l = SIZED(dem_lattice, .dim = 2, .n_nodes = 4, .x = x);
-    int32_t owner[4];
-    assert_ok(partition_bisect(&l, 2, owner));
-    const int32_t expected[4] = {0, 0, 1, 1};
-    assert_memory_equal(owner, expected, sizeof owner);
+    const double corners[4][2] = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 0.95}, {1.0, 0.95}};
+    check_four(corners, 2, (const int32_t[]){0, 0, 1, 1});
 }
 
 TEST(ties_go_by_number)
