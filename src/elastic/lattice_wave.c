@@ -23,7 +23,7 @@ enum {
     PAD = LAYOUT_LANES,                 /* places behind those of a lattice row */
     CACHE = 1200000,                    /* bytes of slots; what the second cache does not hold the third one has */
     FEWEST_STEPS = 4,                   /* even if they take more, */
-    LEAST_SHARE = 4 * LATTICE_WAVE_MOST /* lattice rows of a share */
+    LEAST_SHARE = 3 * LATTICE_WAVE_MOST /* lattice rows of a share */
 };
 
 /* What a share has found. */
@@ -225,9 +225,10 @@ bool lattice_wave_run(lattice_wave *w, lattice_wave_steps *steps)
     return holds;
 }
 
+/* Threads that each take their part of a single step wait for each other in each step. */
 bool lattice_wave_pays(const lattice_wave *w)
 {
-    return w->n_shares >= team_threads(w->team);
+    return 2 * w->n_shares >= team_threads(w->team);
 }
 
 int lattice_wave_most(const lattice_wave *w)

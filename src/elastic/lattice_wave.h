@@ -30,7 +30,8 @@ dem_status lattice_wave_create(lattice_wave **out, const lattice_rows_input *fro
                                team *t);
 void lattice_wave_free(lattice_wave *w);
 
-/** Whether each thread of the team has a share. */
+/** Whether a wave takes less time than single steps, which may have more threads: it has shares for half of the team at
+ *  least. */
 bool lattice_wave_pays(const lattice_wave *w);
 
 /** How many steps a wave takes at most: lattice rows on their way stay in the second cache, or nearly. */
