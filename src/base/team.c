@@ -5,9 +5,11 @@
  * claimed shares are done, and then no range has any left.
  *
  * A helper without work looks for more during `linger`, then sleeps. To wake it costs the caller some time, more if the
- * helper takes its core; and if the system takes a helper's core away in the middle of a share, the caller has to wait.
- * What is lost so is set against the time of the shares that helpers have done. If a loss remains, the caller works
- * alone for a multiple of it: so a busy machine, where both happens all the time, costs a few per cent at most.
+ * helper takes its core; if the system takes a helper's core away in the middle of a share, the caller has to wait; and
+ * two cores may share what binds. So now and then the caller takes short loops alone, by whose time each later one of
+ * that kind is judged. A trial of a long loop would cost much: it is judged by the time of the shares that helpers have
+ * done. If a loss remains, of which gains of before are taken off up to a limit, the caller works alone for a multiple
+ * of it: so threads cost a few per cent at most where they do not pay.
  *
  * Threads sleep on semaphores, as these need no lock that a fork could leave held. */
 #include "base/team.h"
@@ -30,8 +32,21 @@ enum {
     LINGER = 20000,       /* ns that a helper looks for work: about what it takes to wake one */
     LOOKS = 32,           /* between two looks at the clock */
     TOLERATED = 200000,   /* ns that may be lost before the caller works alone, */
-    ALONE = 32            /* for this multiple of what is lost */
+    ALONE = 32,           /* for this multiple of what is lost */
+    KEPT = 2000000,       /* ns of gains, at most, that later losses are set against */
+    TRIAL = 500000,       /* ns for which the caller takes loops alone to learn how long they take, */
+    TRIALS = 50000000,    /* ns from one trial to the next */
+    SHORT = 100000,       /* ns of a loop that takes part in them */
+    KINDS = 8             /* of loops that are remembered */
 };
+
+/* Loops of one kind: the work, and into how many shares it is divided. */
+typedef struct loop_kind {
+    team_work *work;
+    int n_shares;
+    int64_t alone;    /* ns that one takes the caller alone, in the mean of trials; 0: not known */
+    int64_t estimate; /* ns that the last one would have taken it, by the time of its shares; 0: not known */
+} loop_kind;
 
 /* A thread that waits for another's signal. */
 typedef struct waiter {
@@ -57,8 +72,11 @@ struct team {
     pid_t process;   /* which has the helpers */
     team_work *work; /* of the loop under way, for who has claimed a share */
     const void *context;
-    int64_t lost;        /* ns, and not made up for yet */
-    int64_t alone_until; /* ns */
+    loop_kind kinds[KINDS];
+    int next_kind;       /* which is forgotten for a new one */
+    int64_t lost;        /* ns, and not made up for yet; < 0: gained */
+    int64_t alone_until; /* ns, as the next is */
+    int64_t trial;       /* when the next begins, or began that is under way */
     atomic_flag at_work;
     _Alignas(ALIGNED_TO) atomic_uint loops; /* begun so far */
     atomic_bool ended;
@@ -200,37 +218,70 @@ static void wait_until_done(team *t)
 }
 
 /* Waits for shares that helpers have claimed.
- * \param share  ns that one has taken
- * \return ns of waiting if it was much longer than that, else 0 */
-static int64_t wait_for_helpers(team *t, int64_t share)
+ * \param share  ns that one has taken */
+static void wait_for_helpers(team *t, int64_t share)
 {
-    const int64_t begin = now(), patience = begin + 2 * share + t->linger;
+    const int64_t patience = now() + 2 * share + t->linger;
     do
         for (int k = 0; k < LOOKS; k++, relax())
-            if (atomic_load(&t->left) == 0) return 0;
+            if (atomic_load(&t->left) == 0) return;
     while (now() < patience);
     wait_until_done(t);
-    return now() - begin;
 }
 
-/* Sets what a loop has cost, ns, against what it has gained by helpers. */
-static void weigh(team *t, int64_t cost, int64_t gain)
+/* ---- what pays ---- */
+
+/* What is remembered of loops of a kind; a new one takes the place of another. */
+static loop_kind *kind_of(team *t, int n_shares, team_work *work)
 {
-    t->lost = t->lost + cost > gain ? t->lost + cost - gain : 0;
+    for (int k = 0; k < KINDS; k++)
+        if (t->kinds[k].work == work && t->kinds[k].n_shares == n_shares) return &t->kinds[k];
+    loop_kind *kind = &t->kinds[t->next_kind];
+    t->next_kind = (t->next_kind + 1) % KINDS;
+    *kind = (loop_kind){.work = work, .n_shares = n_shares};
+    return kind;
+}
+
+/* Loops of a kind may differ, so that their mean counts; of one in which the system has taken the core away, little. */
+static void learn(loop_kind *kind, int64_t duration)
+{
+    const int64_t most = 4 * kind->alone, counted = duration < most ? duration : most;
+    kind->alone = kind->alone == 0 ? duration : kind->alone + (counted - kind->alone) / 8;
+}
+
+static bool is_short(const loop_kind *kind)
+{
+    return kind->estimate > 0 && kind->estimate < SHORT;
+}
+
+/* Whether a loop that begins now is the caller's alone. A trial is for short loops. */
+static bool takes_alone(team *t, const loop_kind *kind, int64_t begin)
+{
+    if (begin < t->alone_until) return true;
+    if (begin > t->trial + TRIAL) t->trial = begin + TRIALS;
+    return begin >= t->trial && is_short(kind);
+}
+
+/* Sets what a loop has lost, ns, or gained, against what was before. */
+static void weigh(team *t, int64_t loss)
+{
+    t->lost = t->lost + loss > -KEPT ? t->lost + loss : -KEPT;
     if (t->lost <= TOLERATED) return;
     t->alone_until = now() + ALONE * t->lost;
     t->lost = 0;
 }
+
+/* ---- loops ---- */
 
 static void run_alone(int n_shares, team_work *work, const void *context)
 {
     for (int share = 0; share < n_shares; share++) work(context, share, 0);
 }
 
-static void run_together(team *t, int n_shares, team_work *work, const void *context)
+/* \return ns that it would have taken the caller alone, as far as its own shares tell */
+static int64_t run_together(team *t, int n_shares, team_work *work, const void *context)
 {
     const int n = n_shares < t->n_threads ? n_shares : t->n_threads;
-    const int64_t begin = now();
     t->work = work;
     t->context = context;
     atomic_store(&t->left, n_shares);
@@ -241,8 +292,8 @@ static void run_together(team *t, int n_shares, team_work *work, const void *con
     const int64_t called = now();
     const int own = work_through_all(t, 0);
     const int64_t share = (now() - called) / (own > 0 ? own : 1);
-    const int64_t delay = settle(t, own) ? 0 : wait_for_helpers(t, share);
-    weigh(t, called - begin + delay, share * (n_shares - own));
+    if (!settle(t, own)) wait_for_helpers(t, share);
+    return share * n_shares;
 }
 
 void team_run(team *t, int n_shares, team_work *work, const void *context)
@@ -251,10 +302,15 @@ void team_run(team *t, int n_shares, team_work *work, const void *context)
         run_alone(n_shares, work, context);
         return;
     }
-    if (now() < t->alone_until)
+    loop_kind *kind = kind_of(t, n_shares, work);
+    const int64_t begin = now();
+    if (takes_alone(t, kind, begin)) {
         run_alone(n_shares, work, context);
-    else
-        run_together(t, n_shares, work, context);
+        learn(kind, now() - begin);
+    } else {
+        kind->estimate = run_together(t, n_shares, work, context);
+        weigh(t, now() - begin - (kind->alone > 0 && is_short(kind) ? kind->alone : kind->estimate));
+    }
     atomic_flag_clear(&t->at_work);
 }
 

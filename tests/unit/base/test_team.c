@@ -37,7 +37,15 @@ typedef struct record {
     atomic_bool begun[MOST];    /* by share */
     team *inner;                /* whose loop a share runs */
     int late[2];                /* ms that a share takes in the caller, and in a helper */
+    atomic_int n_at_work;       /* threads */
 } record;
+
+static int64_t nanoseconds(void)
+{
+    struct timespec t;
+    (void)clock_gettime(CLOCK_MONOTONIC, &t);
+    return (int64_t)t.tv_sec * 1000000000 + t.tv_nsec;
+}
 
 static void pause_for(int milliseconds)
 {
@@ -112,6 +120,30 @@ TEST(after_a_delay_the_caller_works_alone)
     run(t, MOST, count, &slow);
     assert_int_equal(slow.scratch[0], MOST);
     assert_int_equal(slow.scratch[1], 0);
+}
+
+/* A share that takes the processor 2 us, and 16 us where another thread works at one, too. */
+static void hinder(const void *context, int share, int thread)
+{
+    record *r = *(record *const *)context;
+    const bool alone = atomic_fetch_add(&r->n_at_work, 1) == 0;
+    const int64_t end = nanoseconds() + 2000;
+    bool hindered = !alone;
+    while (nanoseconds() < end + (hindered ? 14000 : 0)) hindered = hindered || r->n_at_work > 1;
+    (void)atomic_fetch_sub(&r->n_at_work, 1);
+    r->scratch[thread]++;
+    (void)share;
+}
+
+/* For a second of them: the caller's own shares tell of a gain by helpers that is a loss. */
+TEST(where_threads_hinder_each_other_the_caller_works_alone)
+{
+    CLEANUP(free_team) team *t = team_create(2, 1);
+    record r = {0};
+    long loops = 0;
+    for (const int64_t end = nanoseconds() + 1000000000; nanoseconds() < end; loops++) run(t, 4, hinder, &r);
+    assert_true(loops > 0);
+    assert_true(r.scratch[1] < loops / 4);
 }
 
 static void run_inner(const void *context, int share, int thread)
