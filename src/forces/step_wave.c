@@ -40,7 +40,9 @@ struct step_wave {
     const kernel *kernel;
     lattice_wave *rows; /* NULL: blocks of the layout are taken, as follows */
     int n_shares;
-    double *rings;        /* [threads][STEP_WAVE_MOST][ring_size] */
+    uint8_t *judged; /* [n_blocks + 1] a bit for each node of a block, and of those behind the last one, whose guard is
+                        judged; NULL: of all */
+    double *rings;   /* [threads][STEP_WAVE_MOST][ring_size] */
     wave_result *results; /* [2 n_shares] */
 };
 
@@ -116,10 +118,16 @@ static void watch(wave_pass *p, int step, dem_index end)
     }
 }
 
-static bool guard_acts(const wave_pass *p, dem_index first, dem_index last)
+static unsigned judged_of(const step_wave *w, dem_index block)
 {
+    return w->judged != NULL ? w->judged[block] : (1u << LAYOUT_LANES) - 1;
+}
+
+static bool guard_acts(const step_wave *w, dem_index first, dem_index last)
+{
+    const uint8_t *guarded = w->kernel->guarded;
     for (dem_index block = first; block < last; block++)
-        if (p->wave->kernel->guarded[block] != 0) return true;
+        if (guarded[block] != 0 && (guarded[block] & judged_of(w, block)) != 0) return true;
     return false;
 }
 
@@ -148,9 +156,11 @@ static void end_rest(wave_pass *p, int step)
     const layout *l = layout_of(p);
     const sweep_fused_step *s = &p->steps->step[step];
     const kernel_state y = {.x = s->x1, .v = s->v1, .a = p->steps->a[step], .fused_step = s};
-    for (dem_index i = LAYOUT_LANES * l->n_blocks; i < l->n_nodes; i++) {
+    const dem_index first = LAYOUT_LANES * l->n_blocks;
+    for (dem_index i = first; i < l->n_nodes; i++) {
+        const bool is_judged = judged_of(p->wave, l->n_blocks) >> (i - first) & 1;
         add_up(p, step, kernel_accelerate_row(k, p->forces, &y, i));
-        p->result->holds = p->result->holds && kernel_guard_bound(k, p->forces, s->x1, i) == 0.0;
+        p->result->holds = p->result->holds && (!is_judged || kernel_guard_bound(k, p->forces, s->x1, i) == 0.0);
     }
     watch(p, step, l->n_nodes);
     if (step + 1 < p->steps->n) drift_rest(p, step + 1);
@@ -175,7 +185,7 @@ static void take_blocks(wave_pass *p, int step, dem_index to)
                           .drift_end = drift_end(p, step)};
     if (!blocks.goes_on) begin_step(p, step);
     add_up(p, step, k->sweep(&blocks, from, to, p->rings + (size_t)step * k->ring_size));
-    p->result->holds = p->result->holds && !guard_acts(p, from, to);
+    p->result->holds = p->result->holds && !guard_acts(p->wave, from, to);
     p->done[step] = to;
     watch(p, step, LAYOUT_LANES * to);
     if (to == l->n_blocks) end_rest(p, step);
@@ -313,6 +323,24 @@ static lattice_wave *create_rows(const kernel *k)
     return lattice_wave_create(&rows, &from, step, k->team) == DEM_OK ? rows : NULL;
 }
 
+/* Ghosts on the outside go on without forces, and may fold there. A triangle is judged by the ranks of which some
+ * corner is no ghost: they have all of it right at the end of each step. The sweep finds it at its lowest corner, or at
+ * all three of them where area terms act. */
+static dem_status find_judged(step_wave *w)
+{
+    const dem_model *m = w->kernel->model;
+    const triangles *all = &m->triangles;
+    if (m->domain == NULL) return DEM_OK;
+    w->judged = calloc((size_t)m->layout.n_blocks + 1, sizeof *w->judged);
+    CHECK_MEMORY(w->judged);
+    for (dem_index i = 0; i < m->lattice.n_nodes; i++)
+        for (dem_index p = all->row[i]; p < all->row[i + 1] && !m->domain->is_ghost[i]; p++) {
+            const dem_index lowest = smaller(i, smaller(all->next[p], all->last[p])), at = m->layout.stiff ? i : lowest;
+            w->judged[at / LAYOUT_LANES] |= (uint8_t)(1u << at % LAYOUT_LANES);
+        }
+    return DEM_OK;
+}
+
 bool step_wave_pays(const step_wave *w)
 {
     const bool is_large = w->kernel->model->layout.n_nodes >= LEAST_NODES;
@@ -338,7 +366,7 @@ step_wave *step_wave_create(const kernel *k)
     if (rows != NULL) return w;
     w->rings = aligned_zeros((size_t)threads * STEP_WAVE_MOST * k->ring_size);
     w->results = calloc(2 * (size_t)w->n_shares, sizeof *w->results);
-    if (w->rings != NULL && w->results != NULL) return w;
+    if (w->rings != NULL && w->results != NULL && find_judged(w) == DEM_OK) return w;
     step_wave_free(w);
     return NULL;
 }
@@ -347,6 +375,7 @@ void step_wave_free(step_wave *w)
 {
     if (w == NULL) return;
     lattice_wave_free(w->rows);
+    free(w->judged);
     free(w->rings);
     free(w->results);
     free(w);
