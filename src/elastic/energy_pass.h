@@ -11,7 +11,8 @@
 
 enum { ENERGY_PASS_GROUP = 4 }; /* blocks that have extremes in common */
 
-/** What a pass reads and writes; nodes in the order of the layout. An element is its lowest node's. */
+/** What a pass reads and writes; nodes in the order of the layout. Springs and couplings are those of their lowest node
+ *  in this order, and triangles that of their lowest number. */
 typedef struct energy_pass {
     const layout *layout;
     const double *x;         /* [n_nodes][2] */

@@ -344,18 +344,17 @@ static void insert(lane_item *items, dem_index n, lane_item own)
     items[n] = own;
 }
 
-/* Those of the triangles of which it is the lowest corner. */
+/* Those of the triangles of which it has the lowest number: from there their areas are seen, wherever the nodes have
+ * their places. */
 static void list_lowest(builder *b, dem_index block)
 {
     const triangles *t = b->t;
     for (int lane = 0; lane < LAYOUT_LANES; lane++) {
-        const dem_index place = LAYOUT_LANES * block + lane, i = layout_node(b->l, place);
+        const dem_index i = layout_node(b->l, LAYOUT_LANES * block + lane);
         b->groups.n[lane] = 0;
-        for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-            const lane_item own = triangle_of(b, lane, i, p);
-            if (own.at > place && own.to > place)
-                insert(b->groups.items + lane * b->groups.most, b->groups.n[lane]++, own);
-        }
+        for (dem_index p = t->row[i]; p < t->row[i + 1]; p++)
+            if (t->next[p] > i && t->last[p] > i)
+                insert(b->groups.items + lane * b->groups.most, b->groups.n[lane]++, triangle_of(b, lane, i, p));
     }
 }
 

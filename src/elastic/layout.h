@@ -62,7 +62,7 @@ typedef struct layout {
     layout_part springs;                   /* what a block evaluates */
     layout_part terms;                     /* what its nodes sum up, in the order of their rows */
     layout_part corners;                   /* its triangles */
-    layout_part lowest;                    /* those of which its nodes are the lowest corners, in any order */
+    layout_part lowest;                    /* those of which its nodes have the lowest numbers, in any order */
     layout_part couplings, coupling_terms; /* the same of coupled triangles as `springs` and `terms` */
     dem_index n_lists, list_capacity;
     int32_t *lists;        /* [n_lists][LAYOUT_LANES] operands */

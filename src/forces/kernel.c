@@ -240,17 +240,43 @@ static dem_index next_flag(const uint8_t *flags, dem_index block, dem_index n)
     return block < n ? block : n;
 }
 
+/* Whether a node is the lowest corner of a triangle that is folded, or nearly so: areas differ by rounding from corner
+ * to corner. */
+static bool has_folded(const triangles *t, dem_index i, const double *x)
+{
+    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++)
+        if (t->next[p] > i && t->last[p] > i && triangles_guard(t, p) > 0.0 &&
+            triangles_area(t, i, p, x) < 1.001 * TRIANGLES_GUARD_ONSET * triangles_rest_area(t, i, p))
+            return true;
+    return false;
+}
+
+/* A node behind the last block may be the lowest corner of triangles that have corners in the last ones. */
+static void flag_rest(const kernel *k, const double *x)
+{
+    const layout *l = &k->model->layout;
+    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes && l->n_blocks > 0; q++)
+        if (has_folded(&k->model->triangles, layout_node(l, q), x)) k->guarded[l->n_blocks - 1] |= 1;
+}
+
 /* From the lowest corners of triangles that are folded, or nearly so, to all nodes on which the guard acts: other
- * corners are up to `ahead` blocks behind. */
-static void find_guarded(const kernel *k, const sweep *s)
+ * corners are up to `ahead` blocks behind, and where nodes are renumbered as many before.
+ * \param x  in the order of the nodes */
+static void find_guarded(const kernel *k, const sweep *s, const double *x)
 {
     const dem_index n = s->layout->n_blocks, ahead = s->layout->ahead;
+    const dem_index before = s->layout->order != NULL ? ahead : 0;
     sweep all_corners = *s;
     if (!s->looks_at_lowest) return;
     all_corners.looks_at_lowest = false;
-    for (dem_index block = next_flag(k->guarded, 0, n), end = 0; block < n; block++) {
-        if (block >= end) block = next_flag(k->guarded, block, n);
-        if (block == n) return;
+    if (before > 0) flag_rest(k, x);
+    for (dem_index block = 0, end = 0; block < n; block++) {
+        if (block >= end) {
+            const dem_index next = next_flag(k->guarded, block, n);
+            if (next == n) return;
+            if (next - before > block) block = next - before;
+            end = next + 1;
+        }
         if (k->guarded[block] != 0) end = block + ahead + 1;
         k->sweep_guard(&all_corners, block, block + 1);
     }
@@ -462,7 +488,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
     }
     /* From here on arrays are in the caller's order again. */
     double sum = sweep_blocks(k, &s);
-    find_guarded(k, &s);
+    find_guarded(k, &s, y->x);
     if (k->packed != NULL) run(&(loop){.kernel = k, .from = s.a, .to = y->a}, unpack_share);
     sum += copy_velocities(y, k->packed != NULL ? 0 : LAYOUT_LANES * l->n_blocks, n);
     sum += accelerate_rest(k, f, y);
@@ -634,7 +660,7 @@ double kernel_stiffening(kernel *k, const forces *f, const double *x)
                      .guarded = k->guarded,
                      .looks_at_lowest = true};
     run(&(loop){.kernel = k, .sweep = &s}, guard_share);
-    find_guarded(k, &s);
+    find_guarded(k, &s, x);
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
         added = fmax(added, kernel_guard_bound(k, f, x, q));
     for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++)

@@ -3,14 +3,16 @@
  * (elastic/energy_pass.c, elastic/motion_pass.c); chunks and runs are joined in their order afterwards. One by one come
  * nodes behind the last block, nodes with elements that are not whole, triangles on which the guard acts, and springs
  * of rigid bodies, which no layout has. The pass finds how large the extreme strains are; which springs have them is
- * found by a second look at the few blocks where they occur. An element belongs to the lowest of its nodes, by their
- * places in the layout, and is measured by the rank that owns that one. */
+ * found by a second look at the few blocks where they occur. An element belongs to its node of the lowest number, from
+ * where the area of a triangle is seen, and is measured by the rank that owns that one: neither depends on the layout,
+ * whose order is another one on each rank. */
 #include "forces/survey.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/aligned.h"
+#include "base/grow.h"
 #include "base/reduce.h"
 #include "base/status.h"
 #include "elastic/lane_slots.h"
@@ -96,15 +98,57 @@ static dem_status allocate(survey *s)
     return DEM_OK;
 }
 
+/* Whether a spring or a triangle of so many nodes is measured here. */
+static bool is_own(const survey *s, const dem_index *nodes, int n)
+{
+    return domain_owns(s->model->domain, domain_lowest(nodes, n));
+}
+
+/* What the layout evaluates at a node: how much of it is measured here, and how much elsewhere. */
+typedef struct node_share {
+    dem_index own, others;
+} node_share;
+
+static void count_in(node_share *share, bool is_here)
+{
+    share->own += is_here;
+    share->others += !is_here;
+}
+
+/* A pass measures springs and couplings at their lowest node by place, and triangles at that by number. */
+static node_share share_of(const survey *s, dem_index i)
+{
+    const springs *bonds = &s->model->springs;
+    const couplings *c = &s->model->couplings;
+    node_share share = {0, 0};
+    count_in(&share, domain_owns(s->model->domain, i));
+    for (dem_index p = bonds->row[i]; p < bonds->row[i + 1]; p++) {
+        const dem_index ends[2] = {i, bonds->neighbour[p]};
+        if (lane_slots_place(s->place, ends[1]) > lane_slots_place(s->place, i)) count_in(&share, is_own(s, ends, 2));
+    }
+    for (dem_index p = c->row[i]; p < c->row[i + 1]; p++)
+        if (lane_slots_is_lowest(c, s->place, p, i)) count_in(&share, is_own(s, c->list[c->slot[p] / 3].corner, 3));
+    return share;
+}
+
+/* Where the layout has the order of numbers it evaluates all at the node whose owner measures it: then no node has
+ * both. */
 static dem_status find_others(survey *s)
 {
     const layout *l = &s->model->layout;
+    dem_index capacity = 0;
     if (s->model->domain == NULL) return DEM_OK;
     s->others = calloc((size_t)l->n_blocks + 1, sizeof *s->others);
     CHECK_MEMORY(s->others);
-    for (dem_index q = 0; q < LAYOUT_LANES * l->n_blocks; q++)
-        if (!domain_owns(s->model->domain, layout_node(l, q)))
-            s->others[q / LAYOUT_LANES] |= (uint8_t)(1u << q % LAYOUT_LANES);
+    for (dem_index q = 0; q < LAYOUT_LANES * l->n_blocks; q++) {
+        const dem_index i = layout_node(l, q);
+        const node_share share = share_of(s, i);
+        if (share.others > 0) s->others[q / LAYOUT_LANES] |= (uint8_t)(1u << q % LAYOUT_LANES);
+        if (share.others == 0 || share.own == 0) continue;
+        CHECK(grow_array((void **)&s->shared, &capacity, s->n_shared + 1, sizeof *s->shared), DEM_ERROR_MEMORY,
+              "out of memory for the energies of %lld nodes", (long long)l->n_nodes);
+        s->shared[s->n_shared++] = i;
+    }
     return DEM_OK;
 }
 
@@ -117,8 +161,8 @@ static dem_status set_up(survey *s)
     TRY(allocate(s));
     (void)cut(s->model, s->runs);
     weigh(s);
-    TRY(find_others(s));
-    return find_places(s);
+    TRY(find_places(s));
+    return find_others(s);
 }
 
 dem_status survey_create(survey *out, const kernel *k)
@@ -143,6 +187,7 @@ void survey_destroy(survey *s)
     free(s->place);
     free(s->packed);
     free(s->others);
+    free(s->shared);
     free(s->skipped);
     free(s->folded);
     free(s->least);
@@ -230,8 +275,11 @@ static void add_spring(taking *t, dem_index k, double strain)
 static void add_springs(taking *t, dem_index i)
 {
     const springs *s = &t->s->model->springs;
-    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-        if (place_of(t, s->neighbour[p]) > place_of(t, i)) add_spring(t, s->spring[p], springs_strain(s, i, p, t->x));
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        const dem_index ends[2] = {i, s->neighbour[p]};
+        if (place_of(t, ends[1]) > place_of(t, i) && is_own(t->s, ends, 2))
+            add_spring(t, s->spring[p], springs_strain(s, i, p, t->x));
+    }
 }
 
 /* Of rigid bodies. */
@@ -240,7 +288,7 @@ static void add_rigid_springs(taking *t)
     const dem_lattice *l = &t->s->model->lattice;
     if (t->s->model->rigid.n == 0) return;
     for (dem_index k = 0; k < l->n_springs; k++)
-        if (rigid_nodes_have(l, l->ends[2 * k]) && domain_owns(t->s->model->domain, ends_of(l, k).low))
+        if (rigid_nodes_have(l, l->ends[2 * k]) && is_own(t->s, &l->ends[2 * k], 2))
             add_spring(t, k, springs_strain_of(l, k, t->x));
 }
 
@@ -249,21 +297,21 @@ static void add_couplings(taking *t, dem_index i)
     const couplings *c = &t->s->model->couplings;
     for (dem_index p = c->row[i]; p < c->row[i + 1]; p++) {
         const dem_index k = c->slot[p] / 3;
-        if (!lane_slots_is_lowest(c, t->s->place, p, i) || couplings_broken(c, t->triangles, k)) continue;
+        if (!lane_slots_is_lowest(c, t->s->place, p, i) || !is_own(t->s, c->list[k].corner, 3)) continue;
+        if (couplings_broken(c, t->triangles, k)) continue;
         const coupled_edges e = couplings_edges(&c->list[k], t->x);
         for (int q = 0; q < 3; q++)
             exact_sum_add(&t->elastic, couplings_left(c, t->triangles, k) * couplings_energy_term(&c->list[k], &e, q));
     }
 }
 
-/* Of the triangles of which node i is the lowest corner: what a pass measures, if it has not, and what the guard does
- * to them. */
+/* Of the triangles of which own node i is the lowest corner: what a pass measures, if it has not, and what the guard
+ * does to them. */
 static void add_triangles(taking *t, dem_index i, bool passed)
 {
     const triangles *all = &t->s->model->triangles;
-    const dem_index own = place_of(t, i);
     for (dem_index p = all->row[i]; p < all->row[i + 1]; p++) {
-        if (place_of(t, all->next[p]) < own || place_of(t, all->last[p]) < own) continue;
+        if (all->next[p] < i || all->last[p] < i) continue;
         if (triangles_broken(all, t->triangles, p)) continue;
         const triangles_energies e = triangles_energies_at(all, t->triangles, i, p, t->x);
         if (!passed) exact_sum_add(&t->area, e.area);
@@ -277,13 +325,13 @@ static void add_triangles(taking *t, dem_index i, bool passed)
 
 static void add_node(taking *t, dem_index i)
 {
-    if (!domain_owns(t->s->model->domain, i)) return;
     add_springs(t, i);
     if (t->s->model->couplings.n > 0) add_couplings(t, i);
-    add_triangles(t, i, false);
+    if (domain_owns(t->s->model->domain, i)) add_triangles(t, i, false);
 }
 
-/* Behind the blocks, beside elements that are not whole, and where a pass has found folded triangles. */
+/* Behind the blocks, beside elements that are not whole, at nodes of which other ranks measure a part, and where a pass
+ * has found folded triangles. */
 static void add_rest(taking *t)
 {
     const layout *l = &t->s->model->layout;
@@ -294,16 +342,9 @@ static void add_rest(taking *t)
     for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) add_node(t, layout_node(l, q));
     for (dem_index d = 0; e != NULL && d < e->n_damaged; d++)
         if (place_of(t, e->damaged[d]) < LAYOUT_LANES * l->n_blocks) add_node(t, e->damaged[d]);
+    for (dem_index k = 0; k < t->s->n_shared; k++)
+        if (element_state_at(e, t->s->shared[k]) == NULL) add_node(t, t->s->shared[k]);
     add_rigid_springs(t);
-}
-
-/* Whether a triangle is measured here: the rank that owns its lowest corner does so. */
-static bool is_own_triangle(const survey *s, const dem_index *corner)
-{
-    dem_index lowest = corner[0];
-    for (int q = 1; q < 3; q++)
-        if (corner[q] < lowest) lowest = corner[q];
-    return domain_owns(s->model->domain, lowest);
 }
 
 /* Triangles that neither area term nor guard acts on are in no layout: then all are looked at by the lattice's list. */
@@ -315,7 +356,7 @@ static void measure_idle_triangles(taking *t)
     for (dem_index k = 0; k < l->n_triangles; k++) {
         if (t->f->elements != NULL && t->f->elements->triangle[k]) continue;
         const dem_index *c = &l->triangles[3 * k];
-        if (!is_own_triangle(t->s, c)) continue;
+        if (!is_own(t->s, c, 3)) continue;
         /* From the lattice's rest positions, as triangles_compile() has it: the ratio is exactly 1 at rest. */
         const double rest_area = vec2_area_of(l->x, c);
         const double ratio = vec2_area_of(t->x, c) / rest_area;
@@ -441,7 +482,8 @@ static void look_at_group(taking *t, dem_index group)
     const dem_index first = LAYOUT_LANES * ENERGY_PASS_GROUP * group, end = LAYOUT_LANES * l->n_blocks;
     for (dem_index q = first; q < end && q < first + LAYOUT_LANES * ENERGY_PASS_GROUP; q++) {
         const dem_index i = layout_node(l, q);
-        if (!domain_owns(t->s->model->domain, i) || element_state_at(t->f->elements, i) != NULL) continue;
+        const bool is_shared = t->s->others != NULL && t->s->others[q / LAYOUT_LANES] >> q % LAYOUT_LANES & 1;
+        if (is_shared || element_state_at(t->f->elements, i) != NULL) continue;
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
             if (place_of(t, s->neighbour[p]) > q)
                 measure_spring(&t->s->model->lattice, s->spring[p], springs_strain(s, i, p, t->x), &t->extremes);

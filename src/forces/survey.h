@@ -26,10 +26,13 @@ typedef struct survey {
     motion_pass_function *measure_motions;
     motion_spin_function *measure_spins;
     team *team;
-    int n_shares;            /* of its loops */
-    int32_t *place;          /* [n_nodes] of each node in the layout, and */
-    double *packed;          /* [n_nodes][2] positions in its order; both NULL: that of the nodes */
-    uint8_t *others;         /* [n_blocks] nodes of other ranks, as `skipped`; NULL: there are none */
+    int n_shares;    /* of its loops */
+    int32_t *place;  /* [n_nodes] of each node in the layout, and */
+    double *packed;  /* [n_nodes][2] positions in its order; both NULL: that of the nodes */
+    uint8_t *others; /* [n_blocks] nodes at which the layout has something that other ranks measure, as
+                                `skipped`; NULL: there are none */
+    dem_index n_shared;
+    dem_index *shared;       /* [n_shared] those of them at which something is measured here, too, one by one */
     uint8_t *skipped;        /* [n_blocks] as energy_pass has them, as the next three are */
     uint8_t *folded;         /* [n_blocks] */
     double *least, *largest; /* [n_groups] */
