@@ -34,8 +34,6 @@ typedef struct builder {
     const springs *s;
     const triangles *t;
     const couplings *c;
-    bool is_part;          /* the order is given: */
-    const int32_t *given;  /* [n_nodes] NULL: that of the nodes */
     int32_t *place;        /* [n_nodes] of each node; NULL: its number */
     int32_t *force;        /* [n_springs] place in the ring */
     int32_t *corner_force; /* [3 n] the same of each corner of coupled triangles */
@@ -430,18 +428,6 @@ static dem_status allocate_order(builder *b)
     return DEM_OK;
 }
 
-/* The order that is given for a part. */
-static dem_status take_order(builder *b)
-{
-    if (b->given == NULL) return DEM_OK;
-    TRY(allocate_order(b));
-    for (dem_index q = 0; q < b->l->n_nodes; q++) {
-        b->l->order[q] = b->given[q];
-        b->place[b->given[q]] = (int32_t)q;
-    }
-    return DEM_OK;
-}
-
 /* Renumbers the nodes if neighbours are far apart as they are numbered and at most half as far after renumbering. Then
  * sets the sizes that follow from the distance: how far blocks reach, and the length of the ring, a power of 2 so that
  * a place in it is found with a mask. */
@@ -449,10 +435,7 @@ static dem_status choose_order(builder *b)
 {
     layout *l = b->l;
     dem_index span = renumber_span(b->s, NULL);
-    if (b->is_part) {
-        TRY(take_order(b));
-        span = renumber_span(b->s, b->place);
-    } else if (span > usual_span) {
+    if (span > usual_span) {
         TRY(allocate_order(b));
         renumber_by_distance(b->s, l->order, b->place);
         const dem_index better = renumber_span(b->s, b->place);
@@ -501,16 +484,14 @@ static dem_status allocate(builder *b)
 }
 
 /* Places are of 32 bits, which halves the memory of entries; springs_compile() has refused larger lattices. */
-static dem_status compile(layout *out, builder b)
+dem_status layout_compile(layout *out, const springs *s, const triangles *t, const couplings *c)
 {
-    const springs *s = b.s;
-    const triangles *t = b.t;
     layout l = {.n_nodes = s->n_nodes,
                 .n_blocks = s->n_nodes / LAYOUT_LANES,
                 .damped = s->viscosity_of != NULL,
                 .stiff = t->area_stiffness_of != NULL,
-                .coupled = b.c->n > 0};
-    b.l = &l;
+                .coupled = c->n > 0};
+    builder b = {.l = &l, .s = s, .t = t, .c = c};
     l.bonds.unit = l.areas.unit = l.couples.unit = sizeof(double); /* the unit of the entries is set in allocate() */
     dem_status status = allocate(&b);
     if (status == DEM_OK) status = lay_blocks(&b);
@@ -526,17 +507,6 @@ static dem_status compile(layout *out, builder b)
     else
         layout_free(&l);
     return status;
-}
-
-dem_status layout_compile(layout *out, const springs *s, const triangles *t, const couplings *c)
-{
-    return compile(out, (builder){.s = s, .t = t, .c = c});
-}
-
-dem_status layout_compile_part(layout *out, const springs *s, const triangles *t, const couplings *c,
-                               const int32_t *order)
-{
-    return compile(out, (builder){.s = s, .t = t, .c = c, .is_part = true, .given = order});
 }
 
 static void free_part(layout_part *part)

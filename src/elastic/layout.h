@@ -87,11 +87,6 @@ dem_index layout_most_items(const springs *s, const triangles *t, const coupling
 /** Compiles. A lattice in which a node has springs to a great part of the others gets no blocks. Free with
  *  layout_free(). */
 dem_status layout_compile(layout *out, const springs *s, const triangles *t, const couplings *c);
-
-/** The same of a part of a lattice, whose nodes have to stand in the order of the whole's layout.
- *  \param order  [n_nodes] the node at each place; NULL: places are node numbers */
-dem_status layout_compile_part(layout *out, const springs *s, const triangles *t, const couplings *c,
-                               const int32_t *order);
 void layout_free(layout *l);
 
 #endif

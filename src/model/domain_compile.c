@@ -178,7 +178,7 @@ dem_status domain_compile(domain_cut *c, const dem_obstacle *obstacles, dem_inde
     TRY(csr_view_create(&m->csr, &m->springs));
     TRY(triangles_compile(&m->triangles, &m->lattice));
     TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
-    TRY(layout_compile_part(&m->layout, &m->springs, &m->triangles, &m->couplings, c->order));
+    TRY(layout_compile(&m->layout, &m->springs, &m->triangles, &m->couplings));
     TRY(compile_surface(m, touching));
     return obstacles_compile(&m->obstacles, obstacles, n_obstacles);
 }

@@ -96,36 +96,6 @@ static dem_status cut_lattice(domain_cut *c, const draft *s, const whole_lattice
 
 /* ---- what is known of the whole alone ---- */
 
-/* A node of the domain, and where the whole's layout has it. */
-typedef struct placed {
-    int32_t place, node;
-} placed;
-
-static int by_place(const void *a, const void *b)
-{
-    const placed *p = a, *q = b;
-    return (p->place > q->place) - (p->place < q->place);
-}
-
-/* Nodes stand in the order of the whole's layout, so that all ranks and a process alone see an element from the same of
- * its nodes, the lowest in this order: areas have other bits from another corner. */
-static dem_status cut_order(domain_cut *c, const whole_lattice *w)
-{
-    const domain *d = c->model->domain;
-    const size_t n = (size_t)d->n_nodes;
-    if (w->place == NULL) return DEM_OK;
-    placed *list = malloc(n * sizeof *list);
-    c->order = malloc(n * sizeof *c->order);
-    if (list != NULL && c->order != NULL) {
-        for (dem_index i = 0; i < d->n_nodes; i++) list[i] = (placed){w->place[d->number[i]], (int32_t)i};
-        qsort(list, n, sizeof *list, by_place);
-        for (size_t q = 0; q < n; q++) c->order[q] = list[q].node;
-    }
-    free(list);
-    CHECK_MEMORY(list != NULL ? c->order : NULL);
-    return DEM_OK;
-}
-
 static void take_scales(dem_model *m, const dem_model *whole)
 {
     m->domain->n_springs = whole->lattice.n_springs;
@@ -165,7 +135,6 @@ void domain_cut_close(domain_cut *c, bool keeps_model)
     dem_lattice_free(&c->around);
     free(c->place);
     free(c->triangle);
-    free(c->order);
     if (!keeps_model) dem_model_destroy(c->model);
     *c = (domain_cut){0};
 }
@@ -187,7 +156,6 @@ static dem_status fill(domain_cut *c, draft *s, whole_lattice *w)
     TRY(find_elements(c, s, w));
     TRY(find_nodes(s, c, w));
     TRY(cut_lattice(c, s, w));
-    TRY(cut_order(c, w));
     TRY(cut_bodies(c->model, &w->bodies));
     take_scales(c->model, w->model);
     return DEM_OK;

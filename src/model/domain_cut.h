@@ -17,7 +17,6 @@ typedef struct whole_lattice {
     domain_shares shares;
     domain_lists lists;           /* of the nodes of all ranks */
     node_rows springs, triangles; /* at each node */
-    int32_t *place;               /* [n_nodes] of each node in the layout; NULL: its number */
 } whole_lattice;
 
 /** The lattice about a domain has the triangles of which any corner is in the domain, with all of their corners: so of
@@ -30,7 +29,6 @@ typedef struct domain_cut {
     dem_lattice around;
     dem_index *place;    /* [nodes of the domain] their numbers in `around`, ascending */
     dem_index *triangle; /* [triangles of `around`] their numbers in the whole, ascending */
-    int32_t *order;      /* [nodes of the domain] that at each place of the layout; NULL: places are numbers */
 } domain_cut;
 
 /** An empty one, with a model. End with domain_cut_close().  \return DEM_ERROR_MEMORY */

@@ -114,7 +114,6 @@ static void list_arrays(parcel *p, domain_cut *c, const head *h)
     parcel_add(p, &m->touching->bodies, (size_t)h->n_bodies * sizeof *m->touching->bodies);
     parcel_add(p, &c->place, n * sizeof *c->place);
     parcel_add(p, &c->triangle, (size_t)h->n[LATTICE_TRIANGLES] * sizeof *c->triangle);
-    parcel_add(p, &c->order, n * sizeof *c->order);
 }
 
 static void list_neighbours(parcel *p, domain *d)

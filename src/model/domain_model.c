@@ -40,7 +40,6 @@ static void close_whole(whole_lattice *w)
     domain_lists_free(&w->lists);
     node_rows_free(&w->springs);
     node_rows_free(&w->triangles);
-    free(w->place);
     free(w->is_common);
 }
 
@@ -121,16 +120,6 @@ static dem_status list_elements(whole_lattice *w)
     return node_rows_create(&w->triangles, l->triangles, 3, l->n_triangles, l->n_nodes);
 }
 
-static dem_status find_order(whole_lattice *w)
-{
-    const layout *l = &w->model->layout;
-    if (l->order == NULL) return DEM_OK;
-    w->place = malloc((size_t)l->n_nodes * sizeof *w->place);
-    CHECK_MEMORY(w->place);
-    for (dem_index q = 0; q < l->n_nodes; q++) w->place[l->order[q]] = (int32_t)q;
-    return DEM_OK;
-}
-
 static dem_status open_whole(whole_lattice *w, const ranks *r, const dem_model *model,
                              const domain_model_shares *shares)
 {
@@ -144,8 +133,7 @@ static dem_status open_whole(whole_lattice *w, const ranks *r, const dem_model *
     mesh_boundary_free(&boundary);
     TRY(status);
     TRY(find_lists(w, r, shares));
-    TRY(list_elements(w));
-    return find_order(w);
+    return list_elements(w);
 }
 
 /* ---- from the whole that each rank has ---- */
