@@ -183,6 +183,7 @@ class Writer:
         for member, given in assignments:
             if not given.startswith("sizeof"):
                 given = {"true": "True", "false": "False"}.get(given, re.sub(r"\s+", " ", given))
+                given = given.replace("_empty()", "_default()")  # of a struct in a struct
                 self.lines.append(f"    value.{member} = {given}")
         self.lines.append("    return value")
 

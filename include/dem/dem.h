@@ -4,6 +4,7 @@
  *
  *      dem/lattice.h     dem_lattice: plain arrays that you may edit: nodes, springs, triangles; materials
  *      dem/shape.h       dem_shape: outlines, images, voids and pores, from which lattices are made
+ *      dem/slab.h        dem_slab: lattices in slabs, for several processes none of which has the whole
  *      dem/model.h       dem_model: compiled from a lattice and obstacles; validated, immutable, shareable
  *      dem/simulation.h  dem_simulation: owns the moving state; dem_simulation_advance() is the time loop
  *      dem/observer.h    dem_observer: is shown the simulation at frames, accepted steps and contact events
@@ -32,6 +33,7 @@
 #include <dem/observer.h>
 #include <dem/shape.h>
 #include <dem/simulation.h>
+#include <dem/slab.h>
 #include <dem/status.h>
 
 #endif

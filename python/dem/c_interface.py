@@ -921,6 +921,36 @@ class dem_mesh(SizedStructure):
                 ("scale", c_double), ("numbered", c_bool)]
 
 
+# ---- dem/slab.h
+
+
+class dem_slab(SizedStructure):
+    """What a range of the nodes of a whole lattice has of it: these nodes, its *own* ones, the nodes that share a
+    triangle with one of them, its *rim*, and the triangles at own nodes. Both have the order of the whole, without
+    gaps. The lattice is assembled and edited as any other, by functions that look at nodes and triangles one by one
+    (dem_lattice_assemble(), dem_lattice_move(), dem_lattice_launch(), dem_lattice_exclude(); dem_lattice_weibull()
+    with numbers). Own nodes, and springs and triangles at them, then have the bits that they have in the whole. Of
+    the rim only places have: masses, flags, and springs between two of its nodes, lack what other ranges have of
+    them. Numbers in messages are those of the slab.
+    struct_size: set by dem_slab_empty()
+    n_nodes: of the whole,
+    n_triangles: likewise
+    first_node: the number in the whole of node 0 of `lattice`; node i is first_node + i there
+    first_triangle: the same of its triangles
+    first_own: in `lattice`, of the n_own nodes that are own ones, one behind the other
+    n_own: > 0
+    lattice: to be freed with dem_slab_free()"""
+    _fields_ = [("struct_size", c_size_t), ("n_nodes", c_int64), ("n_triangles", c_int64), ("first_node", c_int64),
+                ("first_triangle", c_int64), ("first_own", c_int64), ("n_own", c_int64), ("lattice", dem_lattice)]
+
+
+def dem_slab_default() -> dem_slab:
+    """A dem_slab with its defaults."""
+    value = dem_slab()
+    value.lattice = dem_lattice_default()
+    return value
+
+
 # ---- dem/dem.h
 
 
@@ -1628,6 +1658,27 @@ FUNCTIONS: dict[str, tuple[Any, list[Any], str]] = {  # result, arguments, text
         """dem_lattice_least_angle(lattice, angle)
         The least angle of all triangles, which tells how sound they are.
         angle radians; 0 if a triangle is turned over, pi/2 without triangles"""),
+    "dem_slab_free": (None, [POINTER(dem_slab)],
+        """dem_slab_free(slab)
+        Frees the arrays and leaves an empty slab. Accepts NULL, and does nothing where there is no struct_size."""),
+    "dem_slab_rectangle": (c_int, [POINTER(dem_slab), c_double, c_double, c_double, c_int64, c_int64],
+        """dem_slab_rectangle(out, width, height, spacing, part, n_parts)
+        Of n_parts slabs of dem_lattice_rectangle(), the lowest first, the one with number `part`. Each has the same
+        number of rows, or one more; own nodes are whole rows, and the rim is a row below them and one above. No more
+        than these is made. Assembled by dem_lattice_assemble().
+        out from dem_slab_empty(); overwritten, not freed; caller owns it
+        part 0 <= part < n_parts
+        Returns as dem_lattice_rectangle(); DEM_ERROR_MODEL for more parts than rows of nodes"""),
+    "dem_slab_squares": (c_int, [POINTER(dem_slab), c_double, c_double, c_double, c_int64, c_int64],
+        """dem_slab_squares(out, width, height, spacing, part, n_parts)
+        The same of dem_lattice_squares(). Assembled by dem_lattice_assemble_squares()."""),
+    "dem_slab_jitter": (c_int, [POINTER(dem_slab), c_double, c_uint64],
+        """dem_slab_jitter(slab, radius, seed)
+        Moves nodes as dem_lattice_jitter() moves those of the whole. For slabs as they are made, in which then no
+        triangle would keep less than a tenth of its area.
+        radius m, 0 to 0.3 of the shortest side of a triangle
+        Returns DEM_ERROR_ARGUMENT, also for a slab that has no place in a whole; DEM_ERROR_MODEL for one that has
+        springs; DEM_ERROR_MEMORY; then nothing has changed"""),
     "dem_reader_open": (c_int, [POINTER(POINTER(dem_reader)), c_char_p],
         """dem_reader_open(out, path)
 

@@ -56,7 +56,8 @@ class Writer:
     def __init__(self, headers):
         self.headers = headers
         self.enums = {name for header in headers for name, _ in header.enums}
-        self.structs = {name for header in headers for name in header.structs}
+        self.members = {name: members for header in headers for name, members in header.structs.items()}
+        self.structs = set(self.members)
         self.callbacks = {name for header in headers for name in header.callbacks}
         self.lines = HEAD.splitlines()
 
@@ -95,20 +96,23 @@ class Writer:
         return (f"{self.kind(item)}, intent({'in' if item.const else changed}){optional}",
                 item.name + self.extents(function, item))
 
-    def bytes(self, item):
-        """Of one of them, which is also how C aligns it."""
+    def extent(self, item):
+        """Bytes of one of them, and how C aligns it."""
         if item.stars or item.type in self.callbacks:
-            return 8
-        return BYTES.get(item.type, 4)  # else an enum
+            return 8, 8
+        if item.type in self.members:
+            return self.layout(self.members[item.type])
+        size = BYTES.get(item.type, 4)  # else an enum
+        return size, size
 
-    def size(self, members):
-        """sizeof of a struct of these members: tests/fortran compares it with C's."""
+    def layout(self, members):
+        """sizeof of a struct of these members, and how it is aligned: tests/fortran compares it with C's."""
         end = most = 0
         for item in members:
-            one = self.bytes(item)
-            most = max(most, one)
-            end += -end % one + one * math.prod(item.shape)
-        return end + -end % most
+            size, alignment = self.extent(item)
+            most = max(most, alignment)
+            end += -end % alignment + size * math.prod(item.shape)
+        return end + -end % most, most
 
     def member(self, item):
         if item.type in self.callbacks:
@@ -141,7 +145,7 @@ class Writer:
         self.lines += ["", f"  type, bind(c) :: {name}"]
         declared = [self.member(item) for item in members]
         if members[0].name == "struct_size":
-            declared[0] = declared[0][0], f"struct_size = {self.size(members)}"
+            declared[0] = declared[0][0], f"struct_size = {self.layout(members)[0]}"
         self.declare("    ", declared)
         self.lines.append("  end type")
 

@@ -87,4 +87,8 @@ contains
   pure type(dem_lattice) function dem_lattice_empty() result(lattice)
     lattice%dim = 2
   end function
+
+  pure type(dem_slab) function dem_slab_empty() result(slab)
+    slab%lattice = dem_lattice_empty()
+  end function
 end module

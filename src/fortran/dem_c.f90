@@ -1284,6 +1284,44 @@ module dem_c
 
   end interface
 
+  ! ---- dem/slab.h ----------------------------------------------------------------------------------------------------
+
+  type, bind(c) :: dem_slab
+    integer(c_size_t) :: struct_size = 272
+    integer(dem_index) :: n_nodes = 0, n_triangles = 0, first_node = 0, first_triangle = 0, first_own = 0, n_own = 0
+    type(dem_lattice) :: lattice
+  end type
+
+  interface
+
+    subroutine dem_slab_free(slab) bind(c)
+      import
+      type(dem_slab), intent(inout) :: slab
+    end subroutine
+
+    integer(dem_status) function dem_slab_rectangle(out, width, height, spacing, part, n_parts) bind(c)
+      import
+      type(dem_slab), intent(inout) :: out
+      real(c_double), value :: width, height, spacing
+      integer(dem_index), value :: part, n_parts
+    end function
+
+    integer(dem_status) function dem_slab_squares(out, width, height, spacing, part, n_parts) bind(c)
+      import
+      type(dem_slab), intent(inout) :: out
+      real(c_double), value :: width, height, spacing
+      integer(dem_index), value :: part, n_parts
+    end function
+
+    integer(dem_status) function dem_slab_jitter(slab, radius, seed) bind(c)
+      import
+      type(dem_slab), intent(inout) :: slab
+      real(c_double), value :: radius
+      integer(c_int64_t), value :: seed
+    end function
+
+  end interface
+
   ! ---- dem/dem.h -----------------------------------------------------------------------------------------------------
 
   ! ---- dem/reader.h --------------------------------------------------------------------------------------------------

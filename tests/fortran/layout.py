@@ -51,16 +51,26 @@ def show_members(label, struct, value):
     in_c.append(f'show("{label}", (long long)sizeof s, NULL, 0);')
     in_fortran.append(f"block; type({struct}), target :: s; {f's = {value}' if value else ''}")
     in_fortran.append(f"write (*, form) '{label}', c_sizeof(s)")
-    for item in structs[struct]:
-        name = item.name
-        if name == "struct_size":  # in Fortran there from the start, in C set by the caller
-            in_c.append(f'{{ const size_t n = sizeof s; show("{label}.{name}", 0, &n, sizeof n); }}')
-        else:
-            in_c.append(f'show("{label}.{name}", (long long)offsetof({struct}, {name}), &s.{name}, sizeof s.{name});')
-        in_fortran.append(f"write (*, form) '{label}.{name}', place(c_loc(s%{name})) - place(c_loc(s)), &")
-        in_fortran.append(f"  transfer(s%{name}, [0_c_int8_t])")
+    show_items(label, struct, struct, [])
     in_c.append("}")
     in_fortran.append("end block")
+
+
+def show_items(label, struct, whole, path):
+    """Members of a struct, `path` being its names in the whole one."""
+    for item in structs[struct]:
+        names = [*path, item.name]
+        here, there, name = ".".join(names), "%".join(names), f"{label}.{item.name}"
+        if item.type in structs and not item.stars:
+            show_items(name, item.type, whole, names)
+            continue
+        if item.name == "struct_size":  # in Fortran there from the start, in C set by the caller
+            in_c.append(f'{{ const size_t n = sizeof({struct}); '
+                        f'show("{name}", (long long)offsetof({whole}, {here}), &n, sizeof n); }}')
+        else:
+            in_c.append(f'show("{name}", (long long)offsetof({whole}, {here}), &s.{here}, sizeof s.{here});')
+        in_fortran.append(f"write (*, form) '{name}', place(c_loc(s%{there})) - place(c_loc(s)), &")
+        in_fortran.append(f"  transfer(s%{there}, [0_c_int8_t])")
 
 
 def show_result(function):

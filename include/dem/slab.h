@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** dem/slab.h -- a lattice made in slabs, so that none of several processes has to have the whole of it. */
+#ifndef DEM_SLAB_H
+#define DEM_SLAB_H
+
+#include <dem/lattice.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** What a range of the nodes of a whole lattice has of it: these nodes, its *own* ones, the nodes that share a
+ *  triangle with one of them, its *rim*, and the triangles at own nodes. Both have the order of the whole, without
+ *  gaps. The lattice is assembled and edited as any other, by functions that look at nodes and triangles one by one
+ *  (dem_lattice_assemble(), dem_lattice_move(), dem_lattice_launch(), dem_lattice_exclude(); dem_lattice_weibull() with
+ *  numbers). Own nodes, and springs and triangles at them, then have the bits that they have in the whole. Of the rim
+ *  only places have: masses, flags, and springs between two of its nodes, lack what other ranges have of them. Numbers
+ *  in messages are those of the slab. */
+typedef struct dem_slab {
+    size_t struct_size;       /**< set by dem_slab_empty() */
+    dem_index n_nodes;        /**< of the whole, */
+    dem_index n_triangles;    /**< likewise */
+    dem_index first_node;     /**< the number in the whole of node 0 of `lattice`; node i is first_node + i there */
+    dem_index first_triangle; /**< the same of its triangles */
+    dem_index first_own;      /**< in `lattice`, of the n_own nodes that are own ones, one behind the other */
+    dem_index n_own;          /**< > 0 */
+    dem_lattice lattice;      /**< to be freed with dem_slab_free() */
+} dem_slab;
+
+/** No nodes. Every slab begins like this. */
+static inline dem_slab dem_slab_empty(void) /* inline: sizeof is the caller's */
+{
+    dem_slab slab;
+    memset(&slab, 0, sizeof slab);
+    slab.struct_size = sizeof slab;
+    slab.lattice = dem_lattice_empty();
+    return slab;
+}
+
+/** Frees the arrays and leaves an empty slab. Accepts NULL, and does nothing where there is no struct_size. */
+DEM_API void dem_slab_free(dem_slab *slab);
+
+/** Of n_parts slabs of dem_lattice_rectangle(), the lowest first, the one with number `part`. Each has the same number
+ *  of rows, or one more; own nodes are whole rows, and the rim is a row below them and one above. No more than these is
+ *  made. Assembled by dem_lattice_assemble().
+ *  \param[out] out  from dem_slab_empty(); overwritten, not freed; caller owns it
+ *  \param part      0 <= part < n_parts
+ *  \return as dem_lattice_rectangle(); DEM_ERROR_MODEL for more parts than rows of nodes */
+DEM_API dem_status dem_slab_rectangle(dem_slab *out, double width, double height, double spacing, dem_index part,
+                                      dem_index n_parts);
+
+/** The same of dem_lattice_squares(). Assembled by dem_lattice_assemble_squares(). */
+DEM_API dem_status dem_slab_squares(dem_slab *out, double width, double height, double spacing, dem_index part,
+                                    dem_index n_parts);
+
+/** Moves nodes as dem_lattice_jitter() moves those of the whole. For slabs as they are made, in which then no triangle
+ *  would keep less than a tenth of its area.
+ *  \param radius  m, 0 to 0.3 of the shortest side of a triangle
+ *  \return DEM_ERROR_ARGUMENT, also for a slab that has no place in a whole; DEM_ERROR_MODEL for one that has springs;
+ *          DEM_ERROR_MEMORY; then nothing has changed */
+DEM_API dem_status dem_slab_jitter(dem_slab *slab, double radius, uint64_t seed);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* slab.c: what is refused, and what little a slab is; tests/property/test_slabs.c compares slabs with the whole. */
+#include "unit/solids.h"
+#include "harness/message.h"
+
+#define assert_refused(call, status, message)                                                                          \
+    do {                                                                                                               \
+        assert_int_equal(call, status);                                                                                \
+        assert_message_parts(message);                                                                                 \
+    } while (0)
+
+/* 11 and 10 nodes a row by turns. */
+static dem_slab make_slab(double height, dem_index part, dem_index n_parts)
+{
+    dem_slab s = dem_slab_empty();
+    assert_int_equal(dem_slab_rectangle(&s, 10.0, height, 1.0, part, n_parts), DEM_OK);
+    return s;
+}
+
+TEST(a_slab_has_its_rows_and_one_beside)
+{
+    CLEANUP(dem_slab_free) dem_slab s = make_slab(12.0, 1, 3); /* of 15 rows those from 5 to 9 */
+    assert_int_equal(s.n_nodes, 15 * 10 + 8);
+    assert_int_equal(s.n_triangles, 14 * 19);
+    assert_int_equal(s.first_node, 42); /* of row 4, a wide one */
+    assert_int_equal(s.first_triangle, 4 * 19);
+    assert_int_equal(s.first_own, 11);
+    assert_int_equal(s.n_own, 52);
+    assert_int_equal(s.lattice.n_nodes, 11 + 52 + 11);
+    assert_int_equal(s.lattice.n_triangles, 6 * 19);
+}
+
+/* Of 10^9 nodes in rows of 1001 a slab has three rows. */
+TEST(a_slab_takes_no_more_memory_than_its_rows)
+{
+    CLEANUP(dem_slab_free) dem_slab s = dem_slab_empty();
+    assert_int_equal(dem_slab_squares(&s, 1000.0, 1e6, 1.0, 500000, 1000001), DEM_OK);
+    assert_int_equal(s.n_nodes, 1001 * (dem_index)1000001);
+    assert_int_equal(s.n_own, 1001);
+    assert_int_equal(s.lattice.n_nodes, 3 * 1001);
+    assert_int_equal(s.first_node, 499999 * (dem_index)1001);
+    assert_close(s.lattice.x[1], 499999.0, 0.0);
+}
+
+TEST(one_slab_is_the_whole)
+{
+    CLEANUP(dem_slab_free) dem_slab s = make_slab(12.0, 0, 1);
+    assert_int_equal(s.first_node, 0);
+    assert_int_equal(s.first_own, 0);
+    assert_int_equal(s.n_own, s.n_nodes);
+    assert_int_equal(s.lattice.n_nodes, s.n_nodes);
+    assert_int_equal(s.lattice.n_triangles, s.n_triangles);
+}
+
+TEST(slabs_refuse_impossible_sizes_and_parts)
+{
+    CLEANUP(dem_slab_free) dem_slab s = dem_slab_empty();
+    dem_slab bare = {0};
+    assert_refused(dem_slab_rectangle(&s, 1.0, 1.0, 2.0, 0, 1), DEM_ERROR_ARGUMENT, "rectangle * spacing 2 m");
+    assert_refused(dem_slab_squares(&s, 1.0, 1.0, 1e-9, 0, 1), DEM_ERROR_MODEL, "1e+18 nodes");
+    assert_refused(dem_slab_squares(&s, 1.0, 1.0, 0.1, 3, 3), DEM_ERROR_ARGUMENT, "no part 3 of 3");
+    assert_refused(dem_slab_squares(&s, 1.0, 1.0, 0.1, -1, 3), DEM_ERROR_ARGUMENT, "no part -1 of 3");
+    assert_refused(dem_slab_squares(&s, 1.0, 1.0, 0.1, 0, 0), DEM_ERROR_ARGUMENT, "no part 0 of 0");
+    assert_refused(dem_slab_squares(&s, 1.0, 1.0, 0.1, 0, 12), DEM_ERROR_MODEL, "11 rows * 12 slabs");
+    assert_refused(dem_slab_rectangle(NULL, 1.0, 1.0, 0.1, 0, 1), DEM_ERROR_ARGUMENT, "out is NULL");
+    assert_refused(dem_slab_rectangle(&bare, 1.0, 1.0, 0.1, 0, 1), DEM_ERROR_ARGUMENT, "dem_slab: struct_size");
+    assert_int_equal(s.lattice.n_nodes, 0);
+    assert_int_equal(s.n_own, 0);
+}
+
+TEST(slabs_refuse_more_jitter_than_triangles_bear_alone)
+{
+    CLEANUP(dem_slab_free) dem_slab s = make_slab(12.0, 1, 3);
+    const double before = s.lattice.x[2 * s.first_own + 2];
+    assert_refused(dem_slab_jitter(&s, 0.31, 1), DEM_ERROR_ARGUMENT, "0.3 of * 1 m * 0.31 m");
+    assert_refused(dem_slab_jitter(&s, -0.1, 1), DEM_ERROR_ARGUMENT, "radius * jitter * >= 0: -0.1 m");
+    assert_int_equal(dem_slab_jitter(&s, (double)NAN, 1), DEM_ERROR_ARGUMENT);
+    assert_close(s.lattice.x[2 * s.first_own + 2], before, 0.0);
+    assert_int_equal(dem_slab_jitter(&s, 0.3, 1), DEM_OK);
+    assert_true(s.lattice.x[2 * s.first_own + 2] != before);
+}
+
+TEST(slabs_refuse_to_be_moved_without_a_place_in_a_whole)
+{
+    CLEANUP(dem_slab_free) dem_slab s = make_slab(12.0, 1, 3);
+    assert_refused(dem_slab_jitter(NULL, 0.1, 1), DEM_ERROR_ARGUMENT, "slab is NULL");
+    s.n_own += 100;
+    assert_refused(dem_slab_jitter(&s, 0.1, 1), DEM_ERROR_ARGUMENT, "74 nodes * no 152 own ones from 11 on");
+    s.n_own -= 100;
+    s.n_nodes = 100;
+    assert_refused(dem_slab_jitter(&s, 0.1, 1), DEM_ERROR_ARGUMENT, "74 nodes from 42 on * 100 nodes");
+    s.n_nodes = 158;
+    assert_int_equal(dem_lattice_assemble(&s.lattice, &rubber), DEM_OK);
+    assert_refused(dem_slab_jitter(&s, 0.1, 1), DEM_ERROR_MODEL, "springs cannot be jittered");
+}
+
+TEST(what_is_freed_is_empty)
+{
+    dem_slab s = make_slab(12.0, 1, 3), bare = {0};
+    dem_slab_free(&s);
+    assert_int_equal(s.lattice.n_nodes, 0);
+    assert_int_equal(s.n_own, 0);
+    assert_null(s.lattice.x);
+    dem_slab_free(NULL);
+    dem_slab_free(&bare);
+}
