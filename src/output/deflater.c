@@ -1,5 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Shuffled, the first bytes of all numbers stand one behind the other, then their second bytes, and so on. */
+/* Shuffled, the first bytes of all numbers stand one behind the other, then their second bytes, and so on: the *planes*
+ * of a chunk. A *slice* of the chunk, some rows of it, has a range of each plane, which is a *section* of the stream:
+ * deflated with nothing before it to refer to, and ended at a whole byte (Z_SYNC_FLUSH). The stream of a chunk is
+ *   78 01      zlib's header: a window of 32 KiB, no dictionary
+ *   sections   plane by plane, in each of them slice by slice
+ *   03 00      an empty last block
+ *   checksum   Adler-32 of all that is shuffled, joined from those of the sections, the highest byte first
+ * which inflates as if it had been made at once. */
 #include "output/deflater.h"
 
 #include "base/status.h"
@@ -9,12 +16,52 @@
 #include <string.h>
 #include <zlib.h>
 
-static void shuffle_8(unsigned char *out, const unsigned char *data, size_t n)
+enum { HEADER = 2, LAST_BLOCK = 2, CHECKSUM = 4, FLUSH = 16 /* more than zlib adds to end a section at a byte */ };
+
+typedef struct section {
+    size_t begin, size; /* in what is shuffled */
+    size_t at, n;       /* where its bytes are in what is packed: first the room for them, then what they take */
+    int strategy;
+    uLong checksum;
+} section;
+
+/* Numbers `first` to `end` - 1 of `all`, a slice of them. */
+typedef struct span {
+    size_t first, end, all;
+} span;
+
+/* How a chunk is cut. */
+typedef struct cut {
+    size_t slice;    /* numbers of a slice, the last of which may have less */
+    size_t n_slices; /* at least 1 */
+    size_t n_planes; /* that are sections; 1: all planes are one */
+} cut;
+
+static size_t count_of(deflater_numbers m)
 {
-    for (size_t k = 0; k < n; k++) {
+    return m.rows * m.columns;
+}
+
+static cut cut_of(deflater_numbers m)
+{
+    const size_t slice = DEFLATER_SLICE * m.columns, n = m.rows / DEFLATER_SLICE + (m.rows % DEFLATER_SLICE != 0);
+    return (cut){slice, n > 1 ? n : 1, count_of(m) >= DEFLATER_CUT ? m.width : 1};
+}
+
+static span span_of(deflater_numbers m, const cut *c, size_t slice)
+{
+    const size_t all = count_of(m), end = (slice + 1) * c->slice;
+    return (span){slice * c->slice, end < all ? end : all, all};
+}
+
+/* ---- shuffling ---- */
+
+static void shuffle_8(unsigned char *out, const unsigned char *data, span s)
+{
+    for (size_t k = s.first; k < s.end; k++) {
         uint64_t bits;
         memcpy(&bits, data + 8 * k, sizeof bits);
-        for (int b = 0; b < 8; b++) out[(size_t)b * n + k] = (unsigned char)(bits >> 8 * b);
+        for (int b = 0; b < 8; b++) out[(size_t)b * s.all + k] = (unsigned char)(bits >> 8 * b);
     }
 }
 
@@ -23,48 +70,48 @@ static void put_4(unsigned char *out, size_t n, size_t k, uint32_t bits)
     for (int b = 0; b < 4; b++) out[(size_t)b * n + k] = (unsigned char)(bits >> 8 * b);
 }
 
-static void shuffle_4(unsigned char *out, const unsigned char *data, size_t n)
+static void shuffle_4(unsigned char *out, const unsigned char *data, span s)
 {
-    for (size_t k = 0; k < n; k++) {
+    for (size_t k = s.first; k < s.end; k++) {
         uint32_t bits;
         memcpy(&bits, data + 4 * k, sizeof bits);
-        put_4(out, n, k, bits);
+        put_4(out, s.all, k, bits);
     }
 }
 
-static void shuffle_narrowed(unsigned char *out, const double *data, size_t n)
+static void shuffle_narrowed(unsigned char *out, const double *data, span s)
 {
-    for (size_t k = 0; k < n; k++) {
+    for (size_t k = s.first; k < s.end; k++) {
         const float value = (float)data[k];
         uint32_t bits;
         memcpy(&bits, &value, sizeof bits);
-        put_4(out, n, k, bits);
+        put_4(out, s.all, k, bits);
     }
 }
 
 /* HDF5 leaves single bytes as they are. */
-static void shuffle(unsigned char *out, deflater_numbers m)
+static void shuffle(unsigned char *out, deflater_numbers m, span s)
 {
     if (m.narrows)
-        shuffle_narrowed(out, m.data, m.count);
+        shuffle_narrowed(out, m.data, s);
     else if (m.width == 8)
-        shuffle_8(out, m.data, m.count);
+        shuffle_8(out, m.data, s);
     else if (m.width == 4)
-        shuffle_4(out, m.data, m.count);
+        shuffle_4(out, m.data, s);
     else
-        memcpy(out, m.data, m.count);
+        memcpy(out + s.first, (const unsigned char *)m.data + s.first, s.end - s.first);
 }
 
-/* Room for so many bytes; what was there is lost. */
-static dem_status make_room(unsigned char **buffer, size_t *room, size_t bytes)
+/* ---- room ---- */
+
+/* Room for so many bytes, NULL if there is no memory; what was there is lost. */
+static void *make_room(void *before, size_t *room, size_t bytes)
 {
-    if (bytes <= *room) return DEM_OK;
-    free(*buffer);
-    *room = 0;
-    *buffer = malloc(bytes);
-    CHECK_MEMORY(*buffer);
-    *room = bytes;
-    return DEM_OK;
+    if (bytes <= *room) return before;
+    free(before);
+    void *buffer = malloc(bytes);
+    *room = buffer != NULL ? bytes : 0;
+    return buffer;
 }
 
 static void end(deflater *d)
@@ -76,20 +123,52 @@ static void end(deflater *d)
 
 static dem_status begin(deflater *d, int level)
 {
-    enum { WINDOW = 15, MEMORY = 8 }; /* zlib's defaults */
+    enum { RAW = -15, MEMORY = 8 }; /* zlib's defaults, without its header and checksum */
     if (d->stream != NULL && d->level == level) return DEM_OK;
     end(d);
     d->stream = calloc(1, sizeof *d->stream);
     CHECK_MEMORY(d->stream);
-    const bool begun = deflateInit2(d->stream, level, Z_DEFLATED, WINDOW, MEMORY, Z_DEFAULT_STRATEGY) == Z_OK;
+    const bool begun = deflateInit2(d->stream, level, Z_DEFLATED, RAW, MEMORY, Z_DEFAULT_STRATEGY) == Z_OK;
     if (!begun) end(d);
     CHECK(begun, DEM_ERROR_MEMORY, "out of memory to deflate");
     d->level = level;
     return DEM_OK;
 }
 
-/* Whether most sequences of four bytes come again, as those of a lattice at rest do row by row. Of computed numbers
- * some do, beside the zeros of the third direction. */
+/* Lays the sections out in the stream, each with the room that it can take at most, so that one call of zlib is
+ * enough.  \return the room of all */
+static size_t lay_out(deflater *d, deflater_numbers m, const cut *c)
+{
+    size_t at = HEADER;
+    section *s = d->sections;
+    for (size_t plane = 0; plane < c->n_planes; plane++)
+        for (size_t slice = 0; slice < c->n_slices; slice++, s++) {
+            const span p = span_of(m, c, slice);
+            s->begin = plane * p.all + p.first;
+            s->size = (p.end - p.first) * (m.width / c->n_planes);
+            s->at = at;
+            s->n = deflateBound(d->stream, s->size) + FLUSH;
+            at += s->n;
+        }
+    return at + LAST_BLOCK + CHECKSUM;
+}
+
+static dem_status prepare(deflater *d, deflater_numbers m, const cut *c, int level)
+{
+    TRY(begin(d, level));
+    d->sections = make_room(d->sections, &d->sections_room, c->n_slices * c->n_planes * sizeof *d->sections);
+    CHECK_MEMORY(d->sections);
+    d->shuffled = make_room(d->shuffled, &d->room, count_of(m) * m.width);
+    CHECK_MEMORY(d->shuffled);
+    d->packed = make_room(d->packed, &d->packed_room, lay_out(d, m, c));
+    CHECK_MEMORY(d->packed);
+    return DEM_OK;
+}
+
+/* ---- deflating ---- */
+
+/* Whether a third of the sequences of four bytes come again, as those of a lattice at rest do row by row, and those of
+ * signs and exponents. Of the other bytes of computed numbers some do, beside the zeros of the third direction. */
 static bool repeats(const unsigned char *bytes, size_t n)
 {
     enum { LOOK = 16384, SLOTS = 4096 };
@@ -102,32 +181,66 @@ static bool repeats(const unsigned char *bytes, size_t n)
         again += *slot == four;
         *slot = four;
     }
-    return 2 * again > end;
+    return 3 * again > end;
 }
 
-/* At level 1 the bytes in the middle of the numbers tell whether more is to be found than runs of equal bytes. */
-static int strategy_of(const deflater *d, deflater_numbers numbers)
+/* Shuffles a slice, and chooses how its sections are deflated: at level 1 their bytes tell whether more is to be found
+ * than runs of equal ones; of a section of all planes those in the middle of the numbers do. */
+static void shuffle_slice(deflater *d, deflater_numbers m, const cut *c, size_t slice)
 {
-    const unsigned char *middle = d->shuffled + numbers.width / 2 * numbers.count;
-    return d->level > 1 || repeats(middle, numbers.count) ? Z_DEFAULT_STRATEGY : Z_RLE;
+    const span p = span_of(m, c, slice);
+    shuffle(d->shuffled, m, p);
+    for (size_t plane = 0; plane < c->n_planes; plane++) {
+        const size_t seen = c->n_planes > 1 ? plane : m.width / 2;
+        const bool all = d->level > 1 || repeats(d->shuffled + seen * p.all + p.first, p.end - p.first);
+        d->sections[plane * c->n_slices + slice].strategy = all ? Z_DEFAULT_STRATEGY : Z_RLE;
+    }
 }
 
-/* The room is what a stream of so many bytes can take at most, so that one call is enough. */
+/* Leaves 0 bytes if zlib fails. */
+static void deflate_section(const deflater *d, section *s)
+{
+    z_stream *z = d->stream;
+    (void)deflateReset(z);
+    z->next_in = d->shuffled + s->begin;
+    z->avail_in = (uInt)s->size;
+    z->next_out = d->packed + s->at;
+    z->avail_out = (uInt)s->n;
+    (void)deflateParams(z, d->level, s->strategy);
+    const bool done = deflate(z, Z_SYNC_FLUSH) == Z_OK && z->avail_in == 0 && z->avail_out > 0;
+    s->n = done ? z->total_out : 0;
+    s->checksum = adler32(adler32(0, NULL, 0), d->shuffled + s->begin, (uInt)s->size);
+}
+
+/* Moves the sections together, and writes what is before and behind them.  \return false if one is missing */
+static bool join(deflater *d, size_t n_sections)
+{
+    static const unsigned char header[HEADER] = {0x78, 0x01}, last_block[LAST_BLOCK] = {0x03, 0x00};
+    unsigned char *out = d->packed;
+    uLong sum = adler32(0, NULL, 0);
+    memcpy(out, header, sizeof header);
+    out += sizeof header;
+    for (const section *s = d->sections; s < d->sections + n_sections; s++) {
+        if (s->n == 0) return false;
+        memmove(out, d->packed + s->at, s->n);
+        out += s->n;
+        sum = adler32_combine(sum, s->checksum, (z_off_t)s->size);
+    }
+    memcpy(out, last_block, sizeof last_block);
+    out += sizeof last_block;
+    for (int shift = 24; shift >= 0; shift -= 8) *out++ = (unsigned char)(sum >> shift);
+    d->n_packed = (size_t)(out - d->packed);
+    return true;
+}
+
 dem_status deflater_pack(deflater *d, deflater_numbers numbers, int level)
 {
-    const size_t bytes = numbers.count * numbers.width;
-    TRY(begin(d, level));
-    TRY(make_room(&d->shuffled, &d->room, bytes));
-    TRY(make_room(&d->packed, &d->packed_room, deflateBound(d->stream, bytes)));
-    shuffle(d->shuffled, numbers);
-    (void)deflateReset(d->stream);
-    d->stream->next_in = d->shuffled;
-    d->stream->avail_in = (uInt)bytes;
-    d->stream->next_out = d->packed;
-    d->stream->avail_out = (uInt)d->packed_room;
-    (void)deflateParams(d->stream, level, strategy_of(d, numbers));
-    CHECK(deflate(d->stream, Z_FINISH) == Z_STREAM_END, DEM_ERROR_IO, "%zu bytes cannot be deflated", bytes);
-    d->n_packed = d->stream->total_out;
+    const cut c = cut_of(numbers);
+    const size_t n = c.n_slices * c.n_planes;
+    TRY(prepare(d, numbers, &c, level));
+    for (size_t k = 0; k < c.n_slices; k++) shuffle_slice(d, numbers, &c, k);
+    for (size_t k = 0; k < n; k++) deflate_section(d, &d->sections[k]);
+    CHECK(join(d, n), DEM_ERROR_IO, "%zu bytes cannot be deflated", count_of(numbers) * numbers.width);
     return DEM_OK;
 }
 
@@ -136,5 +249,6 @@ void deflater_free(deflater *d)
     end(d);
     free(d->shuffled);
     free(d->packed);
+    free(d->sections);
     *d = (deflater){0};
 }

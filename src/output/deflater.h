@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Packs the numbers of a chunk as HDF5's filters shuffle and deflate do, so that any reader unpacks them, but without
- * making a new zlib stream for each. At level 1 only runs of equal bytes are looked for where little else would be
+ * making a new zlib stream for each, and in sections of the stream that depend on nothing but their own numbers, so
+ * that they could be made in any order. At level 1 only runs of equal bytes are looked for where little else would be
  * found in twice the time, as in numbers of a body that is deformed (docs/performance.md). */
 #ifndef DEM_OUTPUT_DEFLATER_H
 #define DEM_OUTPUT_DEFLATER_H
@@ -8,19 +9,24 @@
 #include <dem/dem.h>
 #include <stdbool.h>
 
+/** Rows of a slice of a chunk. In chunks of DEFLATER_CUT numbers or more each byte of the numbers of a slice is a
+ *  section, in smaller ones all is: each section costs five bytes, and time to begin. */
+enum { DEFLATER_SLICE = 65536, DEFLATER_CUT = 16384 };
+
 /** Zero at first. */
 typedef struct deflater {
-    struct z_stream_s *stream; /**< zlib's; NULL: there is none yet */
-    int level;                 /**< of the stream */
-    unsigned char *shuffled;   /**< [room] */
-    unsigned char *packed;     /**< [packed_room] */
-    size_t room, packed_room;
-    size_t n_packed; /**< bytes that deflater_pack() has left in `packed` */
+    struct z_stream_s *stream;               /**< zlib's; NULL: there is none yet */
+    int level;                               /**< of the stream */
+    unsigned char *shuffled;                 /**< [room] */
+    unsigned char *packed;                   /**< [packed_room] */
+    struct section *sections;                /**< of the stream */
+    size_t room, packed_room, sections_room; /**< bytes */
+    size_t n_packed;                         /**< bytes that deflater_pack() has left in `packed` */
 } deflater;
 
 typedef struct deflater_numbers {
     const void *data;
-    size_t count;
+    size_t rows, columns;
     size_t width; /**< bytes of a number as it is stored: 1, 4 or 8 */
     bool narrows; /**< `data` are doubles, of which floats are stored */
 } deflater_numbers;

@@ -9,25 +9,28 @@
 
 #include <unistd.h>
 
+#include "base/random.h"
 #include "harness/cleanup_hdf5.h"
 #include "output/deflater.h"
 #include "output/hdf5_rows.h"
 #include "unit/scratch.h"
 
-enum { N = 500 };
+enum { N = 500, LARGE = 2 * DEFLATER_SLICE + 20000 /* rows: two slices and a part of one */ };
 
 static const char *path;
 
 /* Deflates the numbers, inflates them, and puts byte k of number j where it belongs. */
-static void pack_and_unpack(deflater *d, deflater_numbers m, int level, unsigned char *out)
+static void pack_and_unpack(deflater *d, deflater_numbers m, int level, void *out)
 {
-    unsigned char shuffled[8 * N];
-    uLongf n = sizeof shuffled;
+    const size_t count = m.rows * m.columns;
+    CLEANUP(free_memory) void *shuffled = malloc(count * m.width);
+    uLongf n = count * m.width;
     assert_ok(deflater_pack(d, m, level));
     assert_int_equal(uncompress(shuffled, &n, d->packed, d->n_packed), Z_OK);
-    assert_int_equal(n, m.count * m.width);
-    for (size_t j = 0; j < m.count; j++)
-        for (size_t k = 0; k < m.width; k++) out[j * m.width + k] = shuffled[k * m.count + j];
+    assert_int_equal(n, count * m.width);
+    for (size_t j = 0; j < count; j++)
+        for (size_t k = 0; k < m.width; k++)
+            ((unsigned char *)out)[j * m.width + k] = ((unsigned char *)shuffled)[k * count + j];
 }
 
 TEST(numbers_of_every_width_come_back)
@@ -39,15 +42,15 @@ TEST(numbers_of_every_width_come_back)
     CLEANUP(deflater_free) deflater d = {0};
     for (int k = 0; k < N; k++) reals[k] = sin(k), wholes[k] = k * k - 1000, bytes[k] = (unsigned char)(k / 100);
     for (int level = 1; level <= 9; level += 4) {
-        pack_and_unpack(&d, (deflater_numbers){reals, N, 8, false}, level, out);
+        pack_and_unpack(&d, (deflater_numbers){reals, N, 1, 8, false}, level, out);
         memcpy(back, out, sizeof back);
         assert_memory_equal(back, reals, sizeof reals);
-        pack_and_unpack(&d, (deflater_numbers){reals, N, 4, true}, level, out);
+        pack_and_unpack(&d, (deflater_numbers){reals, N / 2, 2, 4, true}, level, out);
         memcpy(floats, out, sizeof floats);
         for (int k = 0; k < N; k++) assert_close((double)floats[k], (double)(float)reals[k], 0.0);
-        pack_and_unpack(&d, (deflater_numbers){wholes, N, 4, false}, level, out);
+        pack_and_unpack(&d, (deflater_numbers){wholes, N, 1, 4, false}, level, out);
         assert_memory_equal(out, wholes, sizeof wholes);
-        pack_and_unpack(&d, (deflater_numbers){bytes, N, 1, false}, level, out);
+        pack_and_unpack(&d, (deflater_numbers){bytes, N, 1, 1, false}, level, out);
         assert_memory_equal(out, bytes, sizeof bytes);
     }
 }
@@ -56,7 +59,7 @@ TEST(equal_numbers_take_a_fiftieth_of_their_room)
 {
     const double zeros[N] = {0.0};
     CLEANUP(deflater_free) deflater d = {0};
-    assert_ok(deflater_pack(&d, (deflater_numbers){zeros, N, 8, false}, 1));
+    assert_ok(deflater_pack(&d, (deflater_numbers){zeros, N, 1, 8, false}, 1));
     assert_in_range(d.n_packed, 1, sizeof zeros / 50);
 }
 
@@ -67,31 +70,102 @@ TEST(numbers_that_come_again_row_by_row_take_a_fifth_of_their_room)
     double rows[N], others[N];
     CLEANUP(deflater_free) deflater d = {0};
     for (int k = 0; k < N; k++) rows[k] = sin(k % 50), others[k] = sin(k);
-    assert_ok(deflater_pack(&d, (deflater_numbers){rows, N, 8, false}, 1));
+    assert_ok(deflater_pack(&d, (deflater_numbers){rows, N, 1, 8, false}, 1));
     assert_in_range(d.n_packed, 1, sizeof rows / 5);
-    assert_ok(deflater_pack(&d, (deflater_numbers){others, N, 8, false}, 1));
+    assert_ok(deflater_pack(&d, (deflater_numbers){others, N, 1, 8, false}, 1));
     assert_in_range(d.n_packed, sizeof others / 2, sizeof others);
 }
 
+/* The upper three bytes come again after 50 numbers, the others are anything. */
+TEST(bytes_that_come_again_are_found_beside_those_that_do_not)
+{
+    enum { UPPER = 24, LOWER = 64 - UPPER };
+    CLEANUP(free_memory) uint64_t *number = malloc(LARGE * sizeof *number);
+    CLEANUP(deflater_free) deflater d = {0};
+    for (uint64_t k = 0; k < LARGE; k++) number[k] = random_mix(k % 50) << LOWER | random_mix(k) >> UPPER;
+    assert_ok(deflater_pack(&d, (deflater_numbers){number, LARGE, 1, 8, false}, 1));
+    assert_in_range(d.n_packed, 5 * LARGE, 5 * LARGE + LARGE / 8);
+}
+
+/* As computing leaves them: signs and exponents are few, the last bytes are anything, and every third number is 0. */
+static void draw(double *out, size_t n, uint64_t seed)
+{
+    for (size_t k = 0; k < n; k++) out[k] = k % 3 == 2 ? 0.0 : 1e3 * random_next(&seed);
+}
+
+/* Of every length about where a chunk is cut into planes, and into slices. */
+TEST(random_numbers_come_back_however_a_chunk_is_cut)
+{
+    static const size_t rows[] = {
+        1, DEFLATER_CUT / 3, DEFLATER_CUT / 3 + 1, DEFLATER_SLICE - 1, DEFLATER_SLICE, DEFLATER_SLICE + 1, LARGE};
+    CLEANUP(free_memory) double *value = malloc(3 * LARGE * sizeof *value);
+    CLEANUP(free_memory) double *back = malloc(3 * LARGE * sizeof *back);
+    CLEANUP(free_memory) float *narrow = malloc(3 * LARGE * sizeof *narrow);
+    CLEANUP(deflater_free) deflater d = {0};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        const size_t n = 3 * rows[k];
+        draw(value, n, k);
+        pack_and_unpack(&d, (deflater_numbers){value, rows[k], 3, 8, false}, 1, back);
+        assert_memory_equal(back, value, n * sizeof *value);
+        pack_and_unpack(&d, (deflater_numbers){value, rows[k], 3, 4, true}, 1, narrow);
+        for (size_t j = 0; j < n; j++) assert_close((double)narrow[j], (double)(float)value[j], 0.0);
+        pack_and_unpack(&d, (deflater_numbers){value, rows[k], 24, 1, false}, 6, back);
+        assert_memory_equal(back, value, n * sizeof *value);
+    }
+}
+
+/* Bytes of the sections, without what is before and behind them. */
+static size_t bytes_of(deflater *d, const double *value, size_t rows)
+{
+    assert_ok(deflater_pack(d, (deflater_numbers){value, rows, 1, 8, false}, 1));
+    return d->n_packed - 8;
+}
+
+/* So that anybody can make them. */
+TEST(sections_depend_on_nothing_but_their_piece)
+{
+    enum { ROWS = DEFLATER_SLICE + DEFLATER_CUT };
+    CLEANUP(free_memory) double *value = malloc(ROWS * sizeof *value);
+    CLEANUP(free_memory) unsigned char *first = malloc(9 * DEFLATER_SLICE);
+    CLEANUP(deflater_free) deflater d = {0};
+    draw(value, ROWS, 7);
+    const size_t n = bytes_of(&d, value + DEFLATER_SLICE, DEFLATER_CUT);
+    const size_t m = bytes_of(&d, value, DEFLATER_SLICE);
+    assert_int_equal(bytes_of(&d, value, ROWS), m + n);
+    /* As bytes they have one plane, so that the sections are one behind the other. */
+    const deflater_numbers all = {value, ROWS, 1, 1, false}, one = {value, DEFLATER_SLICE, 1, 1, false};
+    assert_ok(deflater_pack(&d, one, 1));
+    const size_t size = d.n_packed - 6;
+    memcpy(first, d.packed, size);
+    assert_ok(deflater_pack(&d, all, 1));
+    assert_memory_equal(d.packed, first, size);
+}
+
 /* Rows that fill a chunk are packed here, others by HDF5: both come back the same, whatever is cut off in between. */
+static void write_and_read(hdf5_kind kind, size_t chunk, double *value, double *back)
+{
+    const hdf5_rows rows = {kind == HDF5_F64 ? "/exact" : "/narrow", kind, 2, {2, 0}, chunk, 1};
+    hdf5_file file;
+    draw(value, 4 * chunk, chunk);
+    assert_ok(hdf5_open_new(&file, path, 0));
+    assert_ok(hdf5_create(&file, &rows));
+    assert_ok(hdf5_append(&file, &rows, 0, chunk, value));
+    assert_ok(hdf5_append(&file, &rows, chunk, chunk / 2, value));
+    assert_ok(hdf5_append(&file, &rows, chunk, chunk, value + 2 * chunk));
+    assert_ok(hdf5_read(&file, &rows, 0, 2 * chunk, back));
+    for (size_t k = 0; k < 4 * chunk; k++)
+        assert_close(back[k], kind == HDF5_F64 ? value[k] : (double)(float)value[k], 0.0);
+    assert_ok(hdf5_close(&file, DEM_OK));
+}
+
 TEST_WITH(chunks_are_read_by_filters_of_hdf5, NULL, scratch_sweep)
 {
-    static const hdf5_kind kinds[] = {HDF5_F64, HDF5_F32};
-    static const char *const names[] = {"/exact", "/narrow"};
-    double value[2 * N], back[2 * N];
-    hdf5_file file;
-    assert_ok(hdf5_open_new(&file, path, 0));
-    for (int k = 0; k < 2 * N; k++) value[k] = cos(k);
+    CLEANUP(free_memory) double *value = malloc(4 * LARGE * sizeof *value);
+    CLEANUP(free_memory) double *back = malloc(4 * LARGE * sizeof *back);
     for (int q = 0; q < 2; q++) {
-        const hdf5_rows rows = {names[q], kinds[q], 2, {2, 0}, N / 2, 1};
-        assert_ok(hdf5_create(&file, &rows));
-        assert_ok(hdf5_append(&file, &rows, 0, N / 2, value));
-        assert_ok(hdf5_append(&file, &rows, N / 2, N / 4, value));
-        assert_ok(hdf5_append(&file, &rows, N / 2, N / 2, value + N));
-        assert_ok(hdf5_read(&file, &rows, 0, N, back));
-        for (int k = 0; k < 2 * N; k++) assert_close(back[k], q == 0 ? value[k] : (double)(float)value[k], 0.0);
+        write_and_read(q == 0 ? HDF5_F64 : HDF5_F32, N / 2, value, back);
+        write_and_read(q == 0 ? HDF5_F64 : HDF5_F32, LARGE, value, back);
     }
-    assert_ok(hdf5_close(&file, DEM_OK));
 }
 
 SCRATCH_GROUP({&path, "a.h5"});
