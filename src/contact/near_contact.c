@@ -9,7 +9,7 @@
 #include "base/status.h"
 #include "contact/surface_feature.h"
 #include "model/breakable_nodes.h"
-#include "model/domain_model.h"
+#include "model/whole_lattice.h"
 
 enum { NOW = 1, AHEAD = 2 }; /* bits of a node */
 
@@ -97,7 +97,7 @@ static void look_at_obstacles(near_contact *n, const near_contact_state *state, 
 static double concerned(const near_contact *n, double edge)
 {
     enum { BESIDE = 2 };
-    return edge * (n->touching ? 2 * BESIDE + domain_model_rings(&n->model->lattice) : BESIDE);
+    return edge * (n->touching ? 2 * BESIDE + whole_lattice_rings(&n->model->lattice) : BESIDE);
 }
 
 void near_contact_look(near_contact *n, const near_contact_state *state)

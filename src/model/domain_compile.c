@@ -170,9 +170,22 @@ static dem_status compile_surface(dem_model *m, bool touching)
     return DEM_OK;
 }
 
+static void take_scales(dem_model *m, const whole_scales *whole)
+{
+    m->domain->n_springs = whole->n[LATTICE_SPRINGS];
+    m->domain->n_triangles = whole->n[LATTICE_TRIANGLES];
+    m->domain->n_surface_nodes = whole->n_surface_nodes;
+    m->n_bodies = whole->n_bodies;
+    m->edges_are_springs = whole->edges_are_springs;
+    m->spacing = whole->spacing;
+    m->omega_max = whole->omega_max;
+    m->mass = whole->mass;
+}
+
 dem_status domain_compile(domain_cut *c, const dem_obstacle *obstacles, dem_index n_obstacles, bool touching)
 {
     dem_model *m = c->model;
+    take_scales(m, &c->scales);
     TRY(compile_cut(c));
     TRY(springs_compile(&m->springs, &m->lattice));
     TRY(csr_view_create(&m->csr, &m->springs));

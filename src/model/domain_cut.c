@@ -72,7 +72,7 @@ static dem_status find_nodes(draft *s, const domain_cut *c, whole_lattice *w)
     const domain *d = c->model->domain;
     const size_t most = 3 * (size_t)s->n[LATTICE_TRIANGLES] + 1;
     dem_index *beside = malloc(most * sizeof *beside), n_beside = 0;
-    if (beside != NULL) n_beside = list_corners(c, s, &w->model->lattice, w->lists.local, beside);
+    if (beside != NULL) n_beside = list_corners(c, s, w->of.lattice, w->lists.local, beside);
     s->node = malloc(((size_t)(d->n_nodes + n_beside) + 1) * sizeof *s->node);
     if (beside != NULL && s->node != NULL)
         s->n[LATTICE_NODES] = sorted_merge(s->node, d->number, d->n_nodes, beside, n_beside);
@@ -91,22 +91,10 @@ static dem_status cut_lattice(domain_cut *c, const draft *s, const whole_lattice
     c->place = malloc((size_t)d->n_nodes * sizeof *c->place);
     CHECK_MEMORY(c->place);
     for (dem_index i = 0; i < d->n_nodes; i++) c->place[i] = w->lists.local[d->number[i]];
-    return lattice_cut_create(&c->around, &w->model->lattice, &list);
+    return lattice_cut_create(&c->around, w->of.lattice, &list);
 }
 
 /* ---- what is known of the whole alone ---- */
-
-static void take_scales(dem_model *m, const dem_model *whole)
-{
-    m->domain->n_springs = whole->lattice.n_springs;
-    m->domain->n_triangles = whole->lattice.n_triangles;
-    m->domain->n_surface_nodes = whole->surface.n_nodes;
-    m->edges_are_springs = whole->edges_are_springs;
-    m->n_bodies = whole->n_bodies;
-    m->spacing = whole->spacing;
-    m->omega_max = whole->omega_max;
-    m->mass = whole->mass;
-}
 
 static dem_status cut_bodies(dem_model *m, const touching_bodies *whole)
 {
@@ -142,10 +130,10 @@ void domain_cut_close(domain_cut *c, bool keeps_model)
 /* While `local` has the numbers of the domain. */
 static dem_status find_elements(domain_cut *c, draft *s, const whole_lattice *w)
 {
-    const dem_lattice *l = &w->model->lattice;
+    const dem_lattice *l = w->of.lattice;
     domain *d = c->model->domain;
     const dem_index *local = w->lists.local;
-    TRY(rigid_bodies_cut(&c->model->rigid, &w->model->rigid, local, d->n_nodes));
+    TRY(rigid_bodies_cut(&c->model->rigid, w->of.rigid, local, d->n_nodes));
     TRY(find_tuples(&d->spring, &s->n[LATTICE_SPRINGS], &(tuples){&w->springs, 2, l->ends, true}, d, local));
     return find_tuples(&c->triangle, &s->n[LATTICE_TRIANGLES], &(tuples){&w->triangles, 3, l->triangles, false}, d,
                        local);
@@ -157,7 +145,7 @@ static dem_status fill(domain_cut *c, draft *s, whole_lattice *w)
     TRY(find_nodes(s, c, w));
     TRY(cut_lattice(c, s, w));
     TRY(cut_bodies(c->model, &w->bodies));
-    take_scales(c->model, w->model);
+    c->scales = w->of.scales;
     return DEM_OK;
 }
 

@@ -5,27 +5,16 @@
 #ifndef DEM_MODEL_DOMAIN_CUT_H
 #define DEM_MODEL_DOMAIN_CUT_H
 
-#include "domain/domain_lists.h"
-#include "lattice/node_rows.h"
-#include "model/model.h"
-
-/** What is found of the whole once, for the cuts of all ranks. */
-typedef struct whole_lattice {
-    const dem_model *model;
-    touching_bodies bodies;   /* sums over them */
-    unsigned char *is_common; /* [n_nodes] */
-    domain_shares shares;
-    domain_lists lists;           /* of the nodes of all ranks */
-    node_rows springs, triangles; /* at each node */
-} whole_lattice;
+#include "model/whole_lattice.h"
 
 /** The lattice about a domain has the triangles of which any corner is in the domain, with all of their corners: so of
  *  each node of the domain all triangles are there, and what is beside their sides. Springs are those that join nodes
  *  of the domain. */
 typedef struct domain_cut {
-    /* The domain but for its triangles, rigid bodies, sums over bodies in `touching`, scales; no more, and on a rank
-     * that waits for it nothing but zeros. */
+    /* The domain but for its triangles, rigid bodies, sums over bodies in `touching`; no more, and on a rank that waits
+     * for it nothing but zeros. */
     dem_model *model;
+    whole_scales scales;
     dem_lattice around;
     dem_index *place;    /* [nodes of the domain] their numbers in `around`, ascending */
     dem_index *triangle; /* [triangles of `around`] their numbers in the whole, ascending */

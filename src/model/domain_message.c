@@ -17,8 +17,7 @@ typedef struct head {
     dem_index n[LATTICE_ITEMS]; /* of the lattice about it */
     dem_index n_bodies;         /* of which each has its sums */
     dem_index n_rigid, n_rigid_nodes;
-    bool edges_are_springs;
-    double spacing, omega_max, mass;
+    whole_scales scales;
 } head;
 
 static head head_of(const domain_cut *c)
@@ -29,10 +28,7 @@ static head head_of(const domain_cut *c)
               .n_bodies = m->touching->n_bodies,
               .n_rigid = m->rigid.n,
               .n_rigid_nodes = m->rigid.n_nodes,
-              .edges_are_springs = m->edges_are_springs,
-              .spacing = m->spacing,
-              .omega_max = m->omega_max,
-              .mass = m->mass};
+              .scales = c->scales};
     h.domain.number = h.domain.spring = NULL;
     h.domain.is_own = h.domain.is_ghost = h.domain.is_common = h.domain.is_outer = NULL;
     h.domain.neighbours = NULL;
@@ -58,13 +54,10 @@ static void take_head(domain_cut *c, const head *h)
     c->around.n_springs = h->n[LATTICE_SPRINGS];
     c->around.n_triangles = h->n[LATTICE_TRIANGLES];
     m->touching->domain = m->domain;
-    m->touching->n_bodies = m->n_bodies = h->n_bodies;
+    m->touching->n_bodies = h->n_bodies;
     m->rigid.n = h->n_rigid;
     m->rigid.n_nodes = h->n_rigid_nodes;
-    m->edges_are_springs = h->edges_are_springs;
-    m->spacing = h->spacing;
-    m->omega_max = h->omega_max;
-    m->mass = h->mass;
+    c->scales = h->scales;
 }
 
 static dem_status prepare(domain_cut *c, const head *h)

@@ -26,115 +26,8 @@
 
 #include "base/reduce.h"
 #include "base/status.h"
-#include "domain/common_nodes.h"
-#include "lattice/lattice.h"
-#include "model/breakable_nodes.h"
 #include "model/domain_compile.h"
 #include "model/domain_message.h"
-
-/* ---- what is found of the whole once ---- */
-
-static void close_whole(whole_lattice *w)
-{
-    touching_bodies_free(&w->bodies);
-    domain_lists_free(&w->lists);
-    node_rows_free(&w->springs);
-    node_rows_free(&w->triangles);
-    free(w->is_common);
-}
-
-int domain_model_rings(const dem_lattice *lattice)
-{
-    return lattice->viscosity != NULL ? 7 : 4;
-}
-
-/* \param is_near  NULL: all that may touch obstacles are */
-static void mark_near(const dem_model *whole, const unsigned char *is_near, unsigned char *is_common)
-{
-    const dem_lattice *l = &whole->lattice;
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        const bool may_touch = whole->obstacles.n > 0 && l->flags[i] & DEM_NODE_CONTACT;
-        if (l->flags[i] & DEM_NODE_RIGID || (may_touch && (is_near == NULL || is_near[i]))) is_common[i] = 1;
-    }
-}
-
-/* \param boundary  of surfaces that may touch each other; NULL: none do. Without obstacles, and what may break, there
- *  are no events, and so no rings. What is not near has none either */
-static dem_status find_common(const dem_model *whole, const mesh_boundary *boundary, const unsigned char *is_near,
-                              unsigned char *is_common)
-{
-    const dem_lattice *l = &whole->lattice;
-    TRY(breakable_nodes_mark(l, is_common));
-    mark_near(whole, is_near, is_common);
-    if (boundary != NULL && is_near == NULL) mesh_boundary_mark(boundary, is_common, 1);
-    if (whole->obstacles.n > 0 || breakable_lattice(l)) common_nodes_add_rings(l, domain_model_rings(l), is_common);
-    if (is_near == NULL) return DEM_OK;
-    mark_near(whole, NULL, is_common);
-    if (boundary != NULL) mesh_boundary_mark(boundary, is_common, 1);
-    return DEM_OK;
-}
-
-/* Where springs are damped accelerations follow from velocities of neighbours, so that a step would need twice as many
- * rings. Where something may break it does so on other ranks, too. */
-static bool may_have_rings(const dem_lattice *l)
-{
-    return l->viscosity == NULL && !breakable_lattice(l);
-}
-
-static domain_shares shares_of(const ranks *r, const dem_model *whole, const domain_model_shares *s, ring_use use,
-                               const unsigned char *is_common)
-{
-    const dem_index n = whole->lattice.n_nodes;
-    domain_shares shares = {
-        .n_ranks = r->size, .owner = s->owner, .is_common = is_common, .n_rings = s->n_rings, .most_ghosts = INT64_MAX};
-    if (s->n_rings > 0) return shares;
-    const bool is_slack = !whole->layout.stiff && !whole->layout.coupled;
-    const ring_room room = is_slack ? use.slack : use.stiff;
-    shares.n_rings = n >= room.least_nodes * r->size && may_have_rings(&whole->lattice) ? use.most : 1;
-    shares.least_rings = use.least;
-    shares.most_ghosts = n / room.part;
-    return shares;
-}
-
-/* Where no use is known there are rings for steps of Verlet's method, so few that they are no burden to Fehlberg's
- * pair; else those that it has a use for. */
-static dem_status find_lists(whole_lattice *w, const ranks *r, const domain_model_shares *s)
-{
-    enum { PAIR_RINGS = 3, LEAST_STEPS = 4, MOST_STEPS = 8 };
-    ring_use both[] = {ring_use_of_steps(LEAST_STEPS, MOST_STEPS), ring_use_of_stages(PAIR_RINGS)};
-    const ring_use *uses = s->use.most > 0 ? &s->use : both;
-    const int n = s->use.most > 0 ? 1 : 2;
-    both[0].slack = both[0].stiff;
-    for (int k = 0; k < n && w->lists.rings.n_rings <= 1; k++) {
-        domain_lists_free(&w->lists);
-        w->shares = shares_of(r, w->model, s, uses[k], w->is_common);
-        TRY(domain_lists_create(&w->lists, &w->model->lattice, &w->shares));
-    }
-    return DEM_OK;
-}
-
-static dem_status list_elements(whole_lattice *w)
-{
-    const dem_lattice *l = &w->model->lattice;
-    TRY(node_rows_create(&w->springs, l->ends, 2, l->n_springs, l->n_nodes));
-    return node_rows_create(&w->triangles, l->triangles, 3, l->n_triangles, l->n_nodes);
-}
-
-static dem_status open_whole(whole_lattice *w, const ranks *r, const dem_model *model,
-                             const domain_model_shares *shares)
-{
-    mesh_boundary boundary = {0};
-    *w = (whole_lattice){.model = model};
-    TRY(touching_bodies_sum_up(&w->bodies, &model->lattice));
-    w->is_common = lattice_zeros(model->lattice.n_nodes, sizeof *w->is_common);
-    CHECK_MEMORY(w->is_common);
-    if (shares->touching) TRY(mesh_boundary_create(&boundary, &model->lattice, NULL));
-    const dem_status status = find_common(model, shares->touching ? &boundary : NULL, shares->is_near, w->is_common);
-    mesh_boundary_free(&boundary);
-    TRY(status);
-    TRY(find_lists(w, r, shares));
-    return list_elements(w);
-}
 
 /* ---- from the whole that each rank has ---- */
 
@@ -153,11 +46,12 @@ static dem_status finish(dem_model **out, const ranks *r, domain_cut *c, dem_sta
 /* Each rank cuts its own. */
 static dem_status create(domain_cut *c, const ranks *r, const dem_model *model, const domain_model_shares *shares)
 {
+    const whole_parts of = whole_parts_of(model);
     whole_lattice w;
-    dem_status status = open_whole(&w, r, model, shares);
+    dem_status status = whole_lattice_open(&w, &of, r->size, shares);
     if (status == DEM_OK) status = domain_cut_open(c);
     if (status == DEM_OK) status = domain_cut_fill(c, &w, r->rank);
-    close_whole(&w);
+    whole_lattice_close(&w);
     TRY(status);
     return domain_compile(c, model->obstacles.list, model->obstacles.n, shares->touching);
 }
@@ -193,13 +87,20 @@ static dem_status send_all(domain_cut *own, const ranks *r, whole_lattice *w)
     return domain_cut_fill(own, w, 0);
 }
 
+static dem_status open_at_0(whole_lattice *w, const ranks *r, const dem_model *model, const domain_model_shares *shares)
+{
+    if (r->rank > 0) return DEM_OK;
+    const whole_parts of = whole_parts_of(model);
+    return whole_lattice_open(w, &of, r->size, shares);
+}
+
 static dem_status distribute(domain_cut *own, const ranks *r, const dem_model *model, const domain_model_shares *shares)
 {
     whole_lattice w = {0};
-    dem_status status = r->rank == 0 ? open_whole(&w, r, model, shares) : DEM_OK;
+    dem_status status = open_at_0(&w, r, model, shares);
     status = reduce_status(r, status, 0.0);
     if (status == DEM_OK) status = send_all(own, r, &w);
-    close_whole(&w);
+    whole_lattice_close(&w);
     return status;
 }
 

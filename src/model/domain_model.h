@@ -4,18 +4,8 @@
 #ifndef DEM_MODEL_DOMAIN_MODEL_H
 #define DEM_MODEL_DOMAIN_MODEL_H
 
-#include "domain/ring_use.h"
+#include "model/domain_model_shares.h"
 #include "model/model.h"
-
-/** How a model is shared out, the same on all ranks. */
-typedef struct domain_model_shares {
-    const int32_t *owner;         /* [n_nodes] the rank of each node */
-    const unsigned char *is_near; /* [n_nodes] not 0: an event of an obstacle may concern it; NULL: any that may touch
-                                     one. Nothing breaks then */
-    bool touching; /* whether bodies may touch each other, or themselves: all ranks have their surfaces then */
-    ring_use use;  /* of rings of ghosts; of 0 rings: not known */
-    int n_rings;   /* of ghosts; 0: as many as there is a use for */
-} domain_model_shares;
 
 /** Cuts the model of a rank from one of the whole lattice, which may be destroyed afterwards. Own nodes have the
  *  masses, springs, triangles, surface edges and stresses of the whole: where the domain ends there is no boundary.
@@ -34,8 +24,5 @@ dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model 
 dem_status domain_model_distribute(dem_model **out, const ranks *r, const dem_model *whole,
                                    const domain_model_shares *shares, const dem_obstacle *obstacles,
                                    dem_index n_obstacles);
-
-/** How many rings of neighbours about what events may concern ranks have in common. */
-int domain_model_rings(const dem_lattice *lattice);
 
 #endif

@@ -7,6 +7,7 @@
 
 #include "harness/rank_threads.h"
 #include "model/domain_model.h"
+#include "model/whole_lattice.h"
 #include "simulation/private.h"
 
 enum { N_RANKS = 5, TEXT = 200 };
@@ -251,7 +252,7 @@ TEST(rings_are_common_about_what_is_near_alone)
     CLEANUP(free_memory) unsigned char *expected = calloc((size_t)l.n_nodes, 1);
     for (dem_index i = 0; i < l.n_nodes; i++)
         is_near[i] = expected[i] = flags[i] & DEM_NODE_CONTACT && l.x[2 * i + 1] < -0.03;
-    mark_rings(&whole->lattice, domain_model_rings(&l), expected);
+    mark_rings(&whole->lattice, whole_lattice_rings(&l), expected);
     for (dem_index i = 0; i < l.n_nodes; i++) expected[i] |= (flags[i] & DEM_NODE_CONTACT) != 0;
     for (int is_sent = 0; is_sent < 2; is_sent++) {
         shared s = {.whole = whole, .owner = owner, .is_near = is_near, .touching = true, .is_sent = is_sent};
@@ -402,7 +403,7 @@ TEST(rings_reach_as_far_as_the_correction_for_an_event)
             dem_options options = dem_options_default();
             options.method = methods[m];
             dem_simulation *run = support_simulation(model, &options);
-            const int n_rings = run->queue.correction.near.n_rings, n_common = domain_model_rings(&l);
+            const int n_rings = run->queue.correction.near.n_rings, n_common = whole_lattice_rings(&l);
             assert_true(m == 0 ? n_rings == n_common : n_rings < n_common);
             dem_simulation_destroy(run);
         }
