@@ -82,8 +82,9 @@ static inline dem_trajectory_options dem_trajectory_options_default(void)
  *  \param before    s, of the row before; -INFINITY: there is none */
 DEM_API bool dem_history_row_due(double interval, double before, double t);
 
-/** Starts `path`, which must end in ".vtkhdf". Until dem_trajectory_finish() the file is NAME.part.vtkhdf, closed after
- *  every frame (but see stays_open) so that it can be looked at while the run goes on.
+/** Starts `path`, which must end in ".vtkhdf". Until dem_trajectory_finish() the file is NAME.part.vtkhdf, closed
+ *  after every frame (but see stays_open) so that it can be looked at while the run goes on. As many threads deflate
+ *  it as the simulation has (dem_options.threads), to the same bytes.
  *  Writes the lattice group, the obstacle file NAME.obstacle.vtkhdf (none without obstacles) and NAME.body.vtkhdf, by
  *  which ParaView shows triangles (none without triangles or frames).
  *  The run starts anew: an older part is overwritten, and segments NAME.00001.vtkhdf, ... of an unfinished run are

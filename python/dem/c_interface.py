@@ -1760,12 +1760,12 @@ FUNCTIONS: dict[str, tuple[Any, list[Any], str]] = {  # result, arguments, text
                                       POINTER(dem_trajectory_options)],
         """dem_trajectory_create(out, path, simulation, options)
         Starts `path`, which must end in ".vtkhdf". Until dem_trajectory_finish() the file is NAME.part.vtkhdf,
-        closed after every frame (but see stays_open) so that it can be looked at while the run goes on. Writes the
-        lattice group, the obstacle file NAME.obstacle.vtkhdf (none without obstacles) and NAME.body.vtkhdf, by which
-        ParaView shows triangles (none without triangles or frames). The run starts anew: an older part is
-        overwritten, and segments NAME.00001.vtkhdf, ... of an unfinished run are removed, from which only
-        dem_trajectory_resume() goes on. A file of such a name that is no segment stays; it stops
-        dem_trajectory_segment() when that comes to it."""),
+        closed after every frame (but see stays_open) so that it can be looked at while the run goes on. As many
+        threads deflate it as the simulation has (dem_options.threads), to the same bytes. Writes the lattice group,
+        the obstacle file NAME.obstacle.vtkhdf (none without obstacles) and NAME.body.vtkhdf, by which ParaView shows
+        triangles (none without triangles or frames). The run starts anew: an older part is overwritten, and segments
+        NAME.00001.vtkhdf, ... of an unfinished run are removed, from which only dem_trajectory_resume() goes on. A
+        file of such a name that is no segment stays; it stops dem_trajectory_segment() when that comes to it."""),
     "dem_trajectory_resume": (c_int, [POINTER(POINTER(dem_trajectory)), c_char_p, POINTER(dem_simulation),
                                       POINTER(dem_trajectory_options), POINTER(dem_checkpoint)],
         """dem_trajectory_resume(out, path, simulation, options, checkpoint)

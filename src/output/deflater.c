@@ -30,28 +30,31 @@ typedef struct span {
     size_t first, end, all;
 } span;
 
-/* How a chunk is cut. */
-typedef struct cut {
-    size_t slice;    /* numbers of a slice, the last of which may have less */
-    size_t n_slices; /* at least 1 */
-    size_t n_planes; /* that are sections; 1: all planes are one */
-} cut;
+/* A chunk that is being packed, and how it is cut. */
+typedef struct chunk {
+    deflater *deflater;
+    deflater_numbers numbers;
+    size_t all;   /* numbers */
+    int n_slices; /* at least 1 */
+    int n_planes; /* that are sections; 1: all planes are one */
+} chunk;
 
-static size_t count_of(deflater_numbers m)
+static chunk chunk_of(deflater *d, deflater_numbers m)
 {
-    return m.rows * m.columns;
+    const size_t all = m.rows * m.columns, n = m.rows / DEFLATER_SLICE + (m.rows % DEFLATER_SLICE != 0);
+    return (chunk){d, m, all, n > 1 ? (int)n : 1, all >= DEFLATER_CUT ? (int)m.width : 1};
 }
 
-static cut cut_of(deflater_numbers m)
+static int count_sections(const chunk *c)
 {
-    const size_t slice = DEFLATER_SLICE * m.columns, n = m.rows / DEFLATER_SLICE + (m.rows % DEFLATER_SLICE != 0);
-    return (cut){slice, n > 1 ? n : 1, count_of(m) >= DEFLATER_CUT ? m.width : 1};
+    return c->n_slices * c->n_planes;
 }
 
-static span span_of(deflater_numbers m, const cut *c, size_t slice)
+/* The last slice may have less numbers than others. */
+static span span_of(const chunk *c, int slice)
 {
-    const size_t all = count_of(m), end = (slice + 1) * c->slice;
-    return (span){slice * c->slice, end < all ? end : all, all};
+    const size_t most = DEFLATER_SLICE * c->numbers.columns, first = (size_t)slice * most;
+    return (span){first, first + most < c->all ? first + most : c->all, c->all};
 }
 
 /* ---- shuffling ---- */
@@ -116,19 +119,25 @@ static void *make_room(void *before, size_t *room, size_t bytes)
 
 static void end(deflater *d)
 {
-    if (d->stream != NULL) (void)deflateEnd(d->stream);
-    free(d->stream);
-    d->stream = NULL;
+    for (int k = 0; k < d->n_streams; k++) (void)deflateEnd(&d->streams[k]);
+    free(d->streams);
+    d->streams = NULL;
+    d->n_streams = 0;
 }
 
-static dem_status begin(deflater *d, int level)
+/* A stream for each of n threads. */
+static dem_status begin(deflater *d, int level, int n)
 {
     enum { RAW = -15, MEMORY = 8 }; /* zlib's defaults, without its header and checksum */
-    if (d->stream != NULL && d->level == level) return DEM_OK;
+    if (d->n_streams >= n && d->level == level) return DEM_OK;
     end(d);
-    d->stream = calloc(1, sizeof *d->stream);
-    CHECK_MEMORY(d->stream);
-    const bool begun = deflateInit2(d->stream, level, Z_DEFLATED, RAW, MEMORY, Z_DEFAULT_STRATEGY) == Z_OK;
+    d->streams = calloc((size_t)n, sizeof *d->streams);
+    CHECK_MEMORY(d->streams);
+    for (d->n_streams = 0; d->n_streams < n; d->n_streams++) {
+        z_stream *z = &d->streams[d->n_streams];
+        if (deflateInit2(z, level, Z_DEFLATED, RAW, MEMORY, Z_DEFAULT_STRATEGY) != Z_OK) break;
+    }
+    const bool begun = d->n_streams == n;
     if (!begun) end(d);
     CHECK(begun, DEM_ERROR_MEMORY, "out of memory to deflate");
     d->level = level;
@@ -137,30 +146,32 @@ static dem_status begin(deflater *d, int level)
 
 /* Lays the sections out in the stream, each with the room that it can take at most, so that one call of zlib is
  * enough.  \return the room of all */
-static size_t lay_out(deflater *d, deflater_numbers m, const cut *c)
+static size_t lay_out(const chunk *c)
 {
     size_t at = HEADER;
-    section *s = d->sections;
-    for (size_t plane = 0; plane < c->n_planes; plane++)
-        for (size_t slice = 0; slice < c->n_slices; slice++, s++) {
-            const span p = span_of(m, c, slice);
-            s->begin = plane * p.all + p.first;
-            s->size = (p.end - p.first) * (m.width / c->n_planes);
+    section *s = c->deflater->sections;
+    for (int plane = 0; plane < c->n_planes; plane++)
+        for (int slice = 0; slice < c->n_slices; slice++, s++) {
+            const span p = span_of(c, slice);
+            s->begin = (size_t)plane * p.all + p.first;
+            s->size = (p.end - p.first) * (c->numbers.width / (size_t)c->n_planes);
             s->at = at;
-            s->n = deflateBound(d->stream, s->size) + FLUSH;
+            s->n = deflateBound(c->deflater->streams, s->size) + FLUSH;
             at += s->n;
         }
     return at + LAST_BLOCK + CHECKSUM;
 }
 
-static dem_status prepare(deflater *d, deflater_numbers m, const cut *c, int level)
+static dem_status prepare(const chunk *c, int level, int threads)
 {
-    TRY(begin(d, level));
-    d->sections = make_room(d->sections, &d->sections_room, c->n_slices * c->n_planes * sizeof *d->sections);
+    deflater *d = c->deflater;
+    const int n = count_sections(c);
+    TRY(begin(d, level, threads < n ? threads : n));
+    d->sections = make_room(d->sections, &d->sections_room, (size_t)n * sizeof *d->sections);
     CHECK_MEMORY(d->sections);
-    d->shuffled = make_room(d->shuffled, &d->room, count_of(m) * m.width);
+    d->shuffled = make_room(d->shuffled, &d->room, c->all * c->numbers.width);
     CHECK_MEMORY(d->shuffled);
-    d->packed = make_room(d->packed, &d->packed_room, lay_out(d, m, c));
+    d->packed = make_room(d->packed, &d->packed_room, lay_out(c));
     CHECK_MEMORY(d->packed);
     return DEM_OK;
 }
@@ -186,21 +197,26 @@ static bool repeats(const unsigned char *bytes, size_t n)
 
 /* Shuffles a slice, and chooses how its sections are deflated: at level 1 their bytes tell whether more is to be found
  * than runs of equal ones; of a section of all planes those in the middle of the numbers do. */
-static void shuffle_slice(deflater *d, deflater_numbers m, const cut *c, size_t slice)
+static void shuffle_slice(const void *context, int slice, int thread)
 {
-    const span p = span_of(m, c, slice);
-    shuffle(d->shuffled, m, p);
-    for (size_t plane = 0; plane < c->n_planes; plane++) {
-        const size_t seen = c->n_planes > 1 ? plane : m.width / 2;
+    const chunk *c = context;
+    const deflater *d = c->deflater;
+    const span p = span_of(c, slice);
+    (void)thread;
+    shuffle(d->shuffled, c->numbers, p);
+    for (int plane = 0; plane < c->n_planes; plane++) {
+        const size_t seen = c->n_planes > 1 ? (size_t)plane : c->numbers.width / 2;
         const bool all = d->level > 1 || repeats(d->shuffled + seen * p.all + p.first, p.end - p.first);
         d->sections[plane * c->n_slices + slice].strategy = all ? Z_DEFAULT_STRATEGY : Z_RLE;
     }
 }
 
 /* Leaves 0 bytes if zlib fails. */
-static void deflate_section(const deflater *d, section *s)
+static void deflate_section(const void *context, int number, int thread)
 {
-    z_stream *z = d->stream;
+    const deflater *d = ((const chunk *)context)->deflater;
+    section *s = &d->sections[number];
+    z_stream *z = &d->streams[thread];
     (void)deflateReset(z);
     z->next_in = d->shuffled + s->begin;
     z->avail_in = (uInt)s->size;
@@ -213,7 +229,7 @@ static void deflate_section(const deflater *d, section *s)
 }
 
 /* Moves the sections together, and writes what is before and behind them.  \return false if one is missing */
-static bool join(deflater *d, size_t n_sections)
+static bool join(deflater *d, int n_sections)
 {
     static const unsigned char header[HEADER] = {0x78, 0x01}, last_block[LAST_BLOCK] = {0x03, 0x00};
     unsigned char *out = d->packed;
@@ -233,14 +249,14 @@ static bool join(deflater *d, size_t n_sections)
     return true;
 }
 
-dem_status deflater_pack(deflater *d, deflater_numbers numbers, int level)
+dem_status deflater_pack(deflater *d, deflater_numbers numbers, int level, team *t)
 {
-    const cut c = cut_of(numbers);
-    const size_t n = c.n_slices * c.n_planes;
-    TRY(prepare(d, numbers, &c, level));
-    for (size_t k = 0; k < c.n_slices; k++) shuffle_slice(d, numbers, &c, k);
-    for (size_t k = 0; k < n; k++) deflate_section(d, &d->sections[k]);
-    CHECK(join(d, n), DEM_ERROR_IO, "%zu bytes cannot be deflated", count_of(numbers) * numbers.width);
+    const chunk c = chunk_of(d, numbers);
+    const int n = count_sections(&c);
+    TRY(prepare(&c, level, team_threads(t)));
+    team_run(t, c.n_slices, shuffle_slice, &c);
+    team_run(t, n, deflate_section, &c);
+    CHECK(join(d, n), DEM_ERROR_IO, "%zu bytes cannot be deflated", c.all * numbers.width);
     return DEM_OK;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Packs the numbers of a chunk as HDF5's filters shuffle and deflate do, so that any reader unpacks them, but without
  * making a new zlib stream for each, and in sections of the stream that depend on nothing but their own numbers, so
- * that they could be made in any order. At level 1 only runs of equal bytes are looked for where little else would be
+ * that threads make them in any order. At level 1 only runs of equal bytes are looked for where little else would be
  * found in twice the time, as in numbers of a body that is deformed (docs/performance.md). */
 #ifndef DEM_OUTPUT_DEFLATER_H
 #define DEM_OUTPUT_DEFLATER_H
@@ -9,14 +9,16 @@
 #include <dem/dem.h>
 #include <stdbool.h>
 
+#include "base/team.h"
+
 /** Rows of a slice of a chunk. In chunks of DEFLATER_CUT numbers or more each byte of the numbers of a slice is a
  *  section, in smaller ones all is: each section costs five bytes, and time to begin. */
 enum { DEFLATER_SLICE = 65536, DEFLATER_CUT = 16384 };
 
 /** Zero at first. */
 typedef struct deflater {
-    struct z_stream_s *stream;               /**< zlib's; NULL: there is none yet */
-    int level;                               /**< of the stream */
+    struct z_stream_s *streams; /**< [n_streams] zlib's, of a level */
+    int n_streams, level;
     unsigned char *shuffled;                 /**< [room] */
     unsigned char *packed;                   /**< [packed_room] */
     struct section *sections;                /**< of the stream */
@@ -31,8 +33,11 @@ typedef struct deflater_numbers {
     bool narrows; /**< `data` are doubles, of which floats are stored */
 } deflater_numbers;
 
-/** Packs into d->packed, which the next call overwrites.  \param level  1 to 9  \return DEM_ERROR_MEMORY */
-dem_status deflater_pack(deflater *d, deflater_numbers numbers, int level);
+/** Packs into d->packed, which the next call overwrites.
+ *  \param level  1 to 9
+ *  \param t      whose threads do it, to the same bytes; NULL: the caller
+ *  \return DEM_ERROR_MEMORY */
+dem_status deflater_pack(deflater *d, deflater_numbers numbers, int level, team *t);
 
 void deflater_free(deflater *d);
 

@@ -23,6 +23,7 @@ typedef struct hdf5_file {
     void *report_data;
     unsigned plugins;   /**< whether plugins were loaded before */
     deflater *deflater; /**< of a file that is written to */
+    team *team;         /**< whose threads pack what is written; NULL, as at first: the caller */
     kept_datasets *kept;
 } hdf5_file;
 

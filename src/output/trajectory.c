@@ -52,6 +52,7 @@ static dem_status open_part(dem_trajectory *t, hsize_t bytes)
 {
     if (t->open) return hdf5_resume(&t->part, bytes);
     TRY(hdf5_open_write(&t->part, part_of(t), bytes));
+    t->part.team = t->rows.team;
     if (t->rows.options.stays_open) hdf5_keep(&t->part);
     return DEM_OK;
 }

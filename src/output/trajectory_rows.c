@@ -50,6 +50,14 @@ static dem_status make_probes(trajectory_rows *r)
     return DEM_OK;
 }
 
+/* The simulation's own threads are not seen here. Neither team is at work while the other is. */
+static void create_team(trajectory_rows *r, const dem_simulation *simulation)
+{
+    dem_options o = {.struct_size = sizeof o};
+    (void)dem_simulation_options(simulation, &o);
+    r->team = team_create(o.threads, 1);
+}
+
 /* The options are kept, but for the caller's list of probes: each probe has a copy of its own. */
 dem_status trajectory_rows_init(trajectory_rows *out, const dem_simulation *simulation,
                                 const dem_trajectory_options *options)
@@ -58,6 +66,7 @@ dem_status trajectory_rows_init(trajectory_rows *out, const dem_simulation *simu
     out->options = *options;
     /* Events and breaks count as kinds even if they are not wanted: their tables then have no columns. */
     out->n_kinds = ROWS_PROBES + (int)options->n_probes;
+    create_team(out, simulation);
     TRY(frames_init(&out->frames, out->model, options));
     if (has_frames(out) && options->fragments) TRY(fragment_table_init(&out->fragments, out->model));
     TRY(make_probes(out));
@@ -71,6 +80,7 @@ dem_status trajectory_rows_init(trajectory_rows *out, const dem_simulation *simu
 
 void trajectory_rows_free(trajectory_rows *r)
 {
+    team_destroy(r->team);
     history_free(&r->history);
     table_free(&r->events);
     table_free(&r->breaks);

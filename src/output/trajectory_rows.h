@@ -4,6 +4,7 @@
 #ifndef DEM_OUTPUT_TRAJECTORY_ROWS_H
 #define DEM_OUTPUT_TRAJECTORY_ROWS_H
 
+#include "base/team.h"
 #include "output/break_table.h"
 #include "output/event_table.h"
 #include "output/fragment_table.h"
@@ -24,6 +25,7 @@ typedef struct trajectory_rows {
     table events, breaks; /* without columns unless wanted */
     probe *probes;        /* [options.n_probes] */
     provenance provenance;
+    team *team; /* whose threads pack what is written: as many as the simulation has; NULL: none but the caller */
     int n_kinds;
 } trajectory_rows;
 

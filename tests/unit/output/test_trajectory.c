@@ -685,6 +685,43 @@ TEST(two_runs_make_the_same_bytes)
     }
 }
 
+/* A block large enough for its frames to be packed by several threads, in free fall. */
+static run begin_large(int threads)
+{
+    const dem_material rubber =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.4, .density = 1050.0, .thickness = 1.0);
+    run r;
+    dem_trajectory_options wanted = dem_trajectory_options_default();
+    dem_options options = dem_options_default();
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
+    make_folder(&r);
+    assert_int_equal(dem_lattice_rectangle(&lattice, 0.02, 0.02, 2.2e-4), DEM_OK);
+    assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
+    lattice.x[1] += 2e-5;
+    assert_int_equal(dem_model_create(&r.model, &lattice, NULL, 0), DEM_OK);
+    options.threads = threads, options.thread_nodes = 1;
+    assert_int_equal(dem_simulation_create(&r.simulation, r.model, &options), DEM_OK);
+    wanted.frame_interval = 2e-6;
+    open_trajectory(&r, &wanted);
+    return r;
+}
+
+TEST(any_number_of_threads_makes_the_same_bytes)
+{
+    char *bytes[3];
+    size_t size[3];
+    for (int k = 0; k < 3; k++) {
+        run r = begin_large(k + 1);
+        assert_int_equal(dem_simulation_advance(r.simulation, 5e-6), DEM_OK);
+        assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
+        bytes[k] = read_bytes(r.path, &size[k]);
+        assert_int_equal(size[k], size[0]);
+        assert_memory_equal(bytes[k], bytes[0], size[0]);
+        end(&r);
+    }
+    for (int k = 0; k < 3; k++) free(bytes[k]);
+}
+
 /* ---- failures ---- */
 
 TEST(finishing_replaces_an_older_run)
