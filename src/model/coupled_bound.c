@@ -5,8 +5,8 @@
  * with a_k = L_k cot_k/2. Let D_c be the stiffness at corner c when only this corner moves, and lambda the largest
  * number with det(K - lambda D) = 0 for D of the three D_c. Then lambda times D bounds the triangle, and this takes
  * the place of 2 k n n^T of its shares and 3 max(kappa, 0)/A0 g g^T of its area term. lambda is 2 for equilateral
- * triangles at nu = 1/3, where the two are equal, and below 3 for any other. frequency_bound() in model.c has the
- * rest. */
+ * triangles at nu = 1/3, where the two are equal, and below 3 for any other. frequency_bound() in model_scales.c
+ * has the rest. */
 #include "model/coupled_bound.h"
 
 #include <stdbool.h>
@@ -172,17 +172,19 @@ static void add_triangle(const dem_lattice *l, const coupled_triangle *t, const 
 
 /* ---- all of them ---- */
 
-/* `given` sums up what triangles, coupled or not, have given to each spring that is an edge of theirs. */
-dem_status coupled_bound_add(const dem_lattice *lattice, const springs *s, const couplings *c, sym2 *block)
+dem_status coupled_bound_given(double **given, const dem_lattice *lattice, const springs *s)
 {
-    double *given = calloc((size_t)lattice->n_springs + 1, sizeof *given);
-    CHECK(given, DEM_ERROR_MEMORY, "out of memory for %lld springs", (long long)lattice->n_springs);
+    *given = calloc((size_t)lattice->n_springs + 1, sizeof **given);
+    CHECK(*given, DEM_ERROR_MEMORY, "out of memory for %lld springs", (long long)lattice->n_springs);
     for (dem_index k = 0; k < 3 * lattice->n_triangles; k++) {
         const dem_index i = lattice->triangles[k], j = lattice->triangles[k / 3 * 3 + (k + 1) % 3];
         const dem_index spring = springs_between(s, i, j);
-        if (spring >= 0) given[spring] += spring_share_given(lattice, k / 3, spring);
+        if (spring >= 0) (*given)[spring] += spring_share_given(lattice, k / 3, spring);
     }
-    for (dem_index k = 0; k < c->n; k++) add_triangle(lattice, &c->list[k], given, block);
-    free(given);
     return DEM_OK;
+}
+
+void coupled_bound_add(const dem_lattice *lattice, const couplings *c, const double *given, sym2 *block)
+{
+    for (dem_index k = 0; k < c->n; k++) add_triangle(lattice, &c->list[k], given, block);
 }

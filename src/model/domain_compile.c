@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Boundary and stresses are found in the lattice about the domain, as a side of a triangle of the domain may have its
- * other triangle outside of it; all else in the lattice of the domain, as any model is compiled. */
+/* Boundary, stresses, and what triangles give to springs are found in the lattice about the domain, as a side of a
+ * triangle of the domain may have its other triangle outside of it; all else in the lattice of the domain, as any model
+ * is compiled. */
 #include "model/domain_compile.h"
 
 #include <stdlib.h>
@@ -8,6 +9,7 @@
 #include "base/status.h"
 #include "lattice/lattice.h"
 #include "model/breakable_nodes.h"
+#include "model/coupled_bound.h"
 #include "obstacle/obstacle_set.h"
 
 /* The numbers that nodes and triangles about the domain have in it; -1: they are beside it. */
@@ -103,15 +105,23 @@ static dem_status cut_stress(dem_model *m, const stress_map *around, const dem_i
     return DEM_OK;
 }
 
-static dem_status compile_stress(const domain_cut *c)
+static dem_status compile_stress(const domain_cut *c, const springs *all)
 {
-    springs all = {0};
     stress_map around = {0};
-    TRY(springs_compile(&all, &c->around));
-    dem_status status = stress_compile(&around, &c->around, &all, &c->model->couplings);
+    dem_status status = stress_compile(&around, &c->around, all, &c->model->couplings);
     if (status == DEM_OK) status = stress_prepare(&around);
     if (status == DEM_OK) status = cut_stress(c->model, &around, c->place);
     stress_free(&around);
+    return status;
+}
+
+/* What springs have of the triangles at them, of which one may be beside the domain. */
+static dem_status compile_shares(domain_cut *c)
+{
+    springs all = {0};
+    TRY(springs_compile(&all, &c->around));
+    dem_status status = compile_stress(c, &all);
+    if (status == DEM_OK && c->around.coupling != NULL) status = coupled_bound_given(&c->given, &c->around, &all);
     springs_free(&all);
     return status;
 }
@@ -152,7 +162,7 @@ static dem_status compile_cut(domain_cut *c)
     numbers q = {0};
     dem_status status = find_numbers(&q, c);
     if (status == DEM_OK) status = compile_boundary(c, &q);
-    if (status == DEM_OK) status = compile_stress(c);
+    if (status == DEM_OK) status = compile_shares(c);
     if (status == DEM_OK) status = take_lattice(c, &q);
     free_numbers(&q);
     return status == DEM_OK ? compile_nodes(c->model) : status;
@@ -170,28 +180,20 @@ static dem_status compile_surface(dem_model *m, bool touching)
     return DEM_OK;
 }
 
-static void take_scales(dem_model *m, const whole_scales *whole)
+static dem_status compile_elements(dem_model *m)
 {
-    m->domain->n_springs = whole->n[LATTICE_SPRINGS];
-    m->domain->n_triangles = whole->n[LATTICE_TRIANGLES];
-    m->domain->n_surface_nodes = whole->n_surface_nodes;
-    m->n_bodies = whole->n_bodies;
-    m->edges_are_springs = whole->edges_are_springs;
-    m->spacing = whole->spacing;
-    m->omega_max = whole->omega_max;
-    m->mass = whole->mass;
+    TRY(springs_compile(&m->springs, &m->lattice));
+    TRY(csr_view_create(&m->csr, &m->springs));
+    TRY(triangles_compile(&m->triangles, &m->lattice));
+    TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
+    return layout_compile(&m->layout, &m->springs, &m->triangles, &m->couplings);
 }
 
 dem_status domain_compile(domain_cut *c, const dem_obstacle *obstacles, dem_index n_obstacles, bool touching)
 {
     dem_model *m = c->model;
-    take_scales(m, &c->scales);
     TRY(compile_cut(c));
-    TRY(springs_compile(&m->springs, &m->lattice));
-    TRY(csr_view_create(&m->csr, &m->springs));
-    TRY(triangles_compile(&m->triangles, &m->lattice));
-    TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
-    TRY(layout_compile(&m->layout, &m->springs, &m->triangles, &m->couplings));
+    TRY(compile_elements(m));
     TRY(compile_surface(m, touching));
     return obstacles_compile(&m->obstacles, obstacles, n_obstacles);
 }

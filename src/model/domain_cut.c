@@ -123,6 +123,7 @@ void domain_cut_close(domain_cut *c, bool keeps_model)
     dem_lattice_free(&c->around);
     free(c->place);
     free(c->triangle);
+    free(c->given);
     if (!keeps_model) dem_model_destroy(c->model);
     *c = (domain_cut){0};
 }
@@ -145,7 +146,8 @@ static dem_status fill(domain_cut *c, draft *s, whole_lattice *w)
     TRY(find_nodes(s, c, w));
     TRY(cut_lattice(c, s, w));
     TRY(cut_bodies(c->model, &w->bodies));
-    c->scales = w->of.scales;
+    c->model->domain->n_springs = w->of.n[LATTICE_SPRINGS];
+    c->model->domain->n_triangles = w->of.n[LATTICE_TRIANGLES];
     return DEM_OK;
 }
 

@@ -14,10 +14,10 @@ typedef struct domain_cut {
     /* The domain but for its triangles, rigid bodies, sums over bodies in `touching`; no more, and on a rank that waits
      * for it nothing but zeros. */
     dem_model *model;
-    whole_scales scales;
     dem_lattice around;
     dem_index *place;    /* [nodes of the domain] their numbers in `around`, ascending */
     dem_index *triangle; /* [triangles of `around`] their numbers in the whole, ascending */
+    double *given; /* [springs] what triangles give to them, where they may be coupled: found by domain_compile() */
 } domain_cut;
 
 /** An empty one, with a model. End with domain_cut_close().  \return DEM_ERROR_MEMORY */

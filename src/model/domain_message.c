@@ -17,7 +17,6 @@ typedef struct head {
     dem_index n[LATTICE_ITEMS]; /* of the lattice about it */
     dem_index n_bodies;         /* of which each has its sums */
     dem_index n_rigid, n_rigid_nodes;
-    whole_scales scales;
 } head;
 
 static head head_of(const domain_cut *c)
@@ -27,8 +26,7 @@ static head head_of(const domain_cut *c)
               .n = {c->around.n_nodes, c->around.n_springs, c->around.n_triangles},
               .n_bodies = m->touching->n_bodies,
               .n_rigid = m->rigid.n,
-              .n_rigid_nodes = m->rigid.n_nodes,
-              .scales = c->scales};
+              .n_rigid_nodes = m->rigid.n_nodes};
     h.domain.number = h.domain.spring = NULL;
     h.domain.is_own = h.domain.is_ghost = h.domain.is_common = h.domain.is_outer = NULL;
     h.domain.neighbours = NULL;
@@ -57,7 +55,6 @@ static void take_head(domain_cut *c, const head *h)
     m->touching->n_bodies = h->n_bodies;
     m->rigid.n = h->n_rigid;
     m->rigid.n_nodes = h->n_rigid_nodes;
-    c->scales = h->scales;
 }
 
 static dem_status prepare(domain_cut *c, const head *h)

@@ -2,11 +2,11 @@
 /* A domain's model is compiled from the lattice of its nodes, as any other is, but for what depends on more than the
  * neighbours of its own nodes. The boundary, as a side whose other triangle belongs to another rank only is none, and
  * the shares of springs in stresses, as a side opposite to an own node may have its other triangle elsewhere, follow
- * from a lattice with the triangles beside the domain; scales are those of the whole. Orders of nodes, springs and
- * triangles are those of the whole, so that sums over a row have the same bits. A ghost of the last ring has the
- * inverse mass 0, as its row is not complete. What ghosts do comes from their owners, but several rings of them can be
- * integrated here through a step. All that is taken from the whole is the cut of a domain (model/domain_cut.h), which
- * may be made on rank 0 and sent; the rest is compiled from it alone.
+ * from a lattice with the triangles beside the domain; scales are joined of what each rank finds of its own nodes
+ * (model/model_scales.h). Orders of nodes, springs and triangles are those of the whole, so that sums over a row have
+ * the same bits. A ghost of the last ring has the inverse mass 0, as its row is not complete. What ghosts do comes from
+ * their owners, but several rings of them can be integrated here through a step. All that is taken from the whole is
+ * the cut of a domain (model/domain_cut.h), which may be made on rank 0 and sent; the rest is compiled from it alone.
  *
  * All ranks have in common
  * - where there are obstacles what may touch them;
@@ -31,14 +31,27 @@
 
 /* ---- from the whole that each rank has ---- */
 
+static dem_index count_own_surface(const dem_model *m)
+{
+    dem_index n = 0;
+    for (dem_index k = 0; k < m->surface.n_nodes; k++) n += domain_owns(m->domain, m->surface.nodes[k]);
+    return n;
+}
+
+/* What is joined of the domains of all ranks. */
+static dem_status join(dem_model *m, const ranks *r, const double *given)
+{
+    m->ranks = r;
+    m->domain->n_surface_nodes = reduce_count(r, count_own_surface(m));
+    return model_find_scales(m, given);
+}
+
 /* Hands the model over if all ranks have theirs. */
 static dem_status finish(dem_model **out, const ranks *r, domain_cut *c, dem_status own)
 {
-    const dem_status status = reduce_status(r, own, 0.0);
-    if (status == DEM_OK) {
-        c->model->ranks = r;
-        *out = c->model;
-    }
+    dem_status status = reduce_status(r, own, 0.0);
+    if (status == DEM_OK) status = join(c->model, r, c->given);
+    if (status == DEM_OK) *out = c->model;
     domain_cut_close(c, status == DEM_OK);
     return status;
 }

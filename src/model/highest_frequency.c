@@ -3,7 +3,7 @@
  * q_2, ... of the iterates A is tridiagonal, with `diagonal` and `beside` it, and the largest eigenvalue theta of this
  * matrix rises to that of A, omega^2. Some eigenvalue of A is within the residual beside_m |s_m| of theta, where s is
  * the unit eigenvector of the tridiagonal matrix. No orthogonalisation is needed for the largest eigenvalue alone. The
- * rigorous upper bound, which limits steps, is cheaper and not here: frequency_bound() in model.c. */
+ * rigorous upper bound, which limits steps, is cheaper and not here: frequency_bound() in model_scales.c. */
 #include <stdlib.h>
 
 #include "base/exact_terms.h"

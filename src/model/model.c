@@ -13,7 +13,7 @@
 #include "base/struct_size.h"
 #include "lattice/lattice.h"
 #include "lattice/mesh_edges.h"
-#include "model/coupled_bound.h"
+#include "model/model_scales.h"
 #include "obstacle/obstacle_input.h"
 #include "obstacle/obstacle_set.h"
 #include "obstacle/point_gap.h"
@@ -176,67 +176,26 @@ static dem_status compile_nodes(dem_model *m)
         const int fixed = l->flags[i] & DEM_NODE_FIXED;
         m->inverse_mass[i] = fixed ? 0.0 : 1.0 / l->mass[i];
     }
-    m->n_bodies = lattice_count_bodies(l);
     return DEM_OK;
 }
 
-/* omega_max, rad/s: omega^2 <= max |2 S_i + 3 T_i + C_i|/m_i over the nodes (docs/method.md, Integration in time). S_i
- * is the sum of k n n^T over the springs of node i, since (n.(u_j - u_i))^2 <= 2 (n.u_i)^2 + 2 (n.u_j)^2; T_i that of
- * max(kappa, 0)/A0 g g^T over its triangles with g = dA/dx_i, since (sum of three)^2 <= 3 (sum of squares); and C_i, in
- * `coupled`, what coupled triangles have beside that; NULL: nothing. */
-static double frequency_bound(const dem_model *m, const sym2 *coupled)
+dem_status model_find_scales(dem_model *m, const double *given)
 {
-    const double *x = m->lattice.x;
-    double squared = 0.0;
-    for (dem_index i = 0; i < m->lattice.n_nodes; i++) {
-        const sym2 bonds = springs_block(&m->springs, m->springs.stiffness_of, i, x);
-        const sym2 areas = triangles_block(&m->triangles, i, x);
-        const sym2 own = {2.0 * bonds.xx + 3.0 * areas.xx, 2.0 * bonds.xy + 3.0 * areas.xy,
-                          2.0 * bonds.yy + 3.0 * areas.yy};
-        const double bound = sym2_largest(coupled != NULL ? sym2_add(own, coupled[i]) : own) * m->inverse_mass[i];
-        squared = isfinite(bound) ? fmax(squared, bound) : (double)INFINITY; /* fmax() would drop a NAN */
-    }
-    return sqrt(squared);
-}
-
-static dem_status compile_omega(dem_model *m)
-{
-    sym2 *coupled = NULL;
-    dem_status status = DEM_OK;
-    if (m->couplings.n > 0) {
-        coupled = lattice_zeros(m->lattice.n_nodes, sizeof *coupled);
-        CHECK_MEMORY(coupled);
-        status = coupled_bound_add(&m->lattice, &m->springs, &m->couplings, coupled);
-    }
-    if (status == DEM_OK) m->omega_max = frequency_bound(m, coupled);
-    free(coupled);
-    return status;
-}
-
-/* The spacing is the shortest rest length. The mass is an exact sum. */
-static void compile_scales(dem_model *m)
-{
-    const dem_lattice *l = &m->lattice;
-    double shortest = INFINITY;
-    for (dem_index k = 0; k < l->n_springs; k++) shortest = fmin(shortest, l->rest_length[k]);
-    /* A lattice without springs has the spacing 0. */
-    shortest = reduce_min(m->ranks, shortest);
-    m->spacing = isfinite(shortest) ? shortest : 0.0;
-    m->omega_max = reduce_max(m->ranks, m->omega_max);
-    m->n_bodies = (dem_index)reduce_max(m->ranks, (double)m->n_bodies);
-    m->edges_are_springs = !reduce_any(m->ranks, !m->edges_are_springs);
-    exact_sum mass = {0};
-    exact_sum_add_array(&mass, l->mass, l->n_nodes);
-    m->mass = reduce_sum(m->ranks, &mass);
-}
-
-/* Each edge of a triangle goes from one of its corners to the next. */
-static bool edges_are_springs(const springs *s, const triangles *t)
-{
-    for (dem_index i = 0; i < t->n_nodes; i++)
-        for (dem_index p = t->row[i]; p < t->row[i + 1]; p++)
-            if (springs_between(s, i, t->next[p]) < 0) return false;
-    return true;
+    model_scales s;
+    TRY(model_scales_find(&s, m->ranks,
+                          &(model_scales_input){.domain = m->domain,
+                                                .lattice = &m->lattice,
+                                                .springs = &m->springs,
+                                                .triangles = &m->triangles,
+                                                .couplings = &m->couplings,
+                                                .inverse_mass = m->inverse_mass,
+                                                .given = given}));
+    m->n_bodies = s.n_bodies;
+    m->edges_are_springs = s.edges_are_springs;
+    m->spacing = s.spacing;
+    m->omega_max = s.omega_max;
+    m->mass = s.mass;
+    return DEM_OK;
 }
 
 /* Appending to an empty lattice copies the caller's arrays. */
@@ -250,21 +209,19 @@ static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const 
     TRY(springs_compile(&m->springs, &m->lattice));
     TRY(csr_view_create(&m->csr, &m->springs));
     TRY(triangles_compile(&m->triangles, &m->lattice));
-    m->edges_are_springs = edges_are_springs(&m->springs, &m->triangles);
     TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
     TRY(layout_compile(&m->layout, &m->springs, &m->triangles, &m->couplings));
     TRY(surface_compile(&m->surface, &m->lattice, SURFACE_TOUCHING));
     TRY(stress_compile(&m->stress, &m->lattice, &m->springs, &m->couplings));
     TRY(obstacles_compile(&m->obstacles, list, n));
-    TRY(compile_nodes(m));
-    return compile_omega(m);
+    return compile_nodes(m);
 }
 
 /* A failure of one part is reduced before the sums, at which all processes would meet (base/reduce.h). */
 static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
 {
     TRY(reduce_status(m->ranks, compile_parts(m, lattice, list, n), 0.0));
-    compile_scales(m);
+    TRY(model_find_scales(m, NULL));
     CHECK(isfinite(m->omega_max), DEM_ERROR_MODEL, "stiffness over mass is too large to compute with");
     return reduce_status(m->ranks, check_bodies(m), 0.0);
 }

@@ -39,6 +39,10 @@ struct dem_model {
     double mass;      /* kg */
 };
 
+/** Finds the scales of a model, which has its ranks and of which all else is compiled. Collective.
+ *  \param given  as model_scales_input has it  \return DEM_ERROR_MEMORY, on all ranks */
+dem_status model_find_scales(dem_model *m, const double *given);
+
 /** The number of node i in the whole lattice, of which the model may have a part. */
 static inline dem_index model_node(const dem_model *m, dem_index i)
 {

@@ -14,15 +14,9 @@ whole_parts whole_parts_of(const dem_model *m)
     const dem_lattice *l = &m->lattice;
     return (whole_parts){.lattice = l,
                          .rigid = &m->rigid,
+                         .n = {l->n_nodes, l->n_springs, l->n_triangles},
                          .has_obstacles = m->obstacles.n > 0,
-                         .scales = {.n = {l->n_nodes, l->n_springs, l->n_triangles},
-                                    .n_surface_nodes = m->surface.n_nodes,
-                                    .n_bodies = m->n_bodies,
-                                    .edges_are_springs = m->edges_are_springs,
-                                    .is_slack = !m->layout.stiff && !m->layout.coupled,
-                                    .spacing = m->spacing,
-                                    .omega_max = m->omega_max,
-                                    .mass = m->mass}};
+                         .is_slack = !m->layout.stiff && !m->layout.coupled};
 }
 
 int whole_lattice_rings(const dem_lattice *lattice)
@@ -65,15 +59,14 @@ static bool may_have_rings(const dem_lattice *l)
 
 static domain_shares shares_of(const whole_lattice *w, int n_ranks, const domain_model_shares *s, ring_use use)
 {
-    const whole_scales *whole = &w->of.scales;
     domain_shares shares = {.n_ranks = n_ranks,
                             .owner = s->owner,
                             .is_common = w->is_common,
                             .n_rings = s->n_rings,
                             .most_ghosts = INT64_MAX};
     if (s->n_rings > 0) return shares;
-    const dem_index n = whole->n[LATTICE_NODES];
-    const ring_room room = whole->is_slack ? use.slack : use.stiff;
+    const dem_index n = w->of.n[LATTICE_NODES];
+    const ring_room room = w->of.is_slack ? use.slack : use.stiff;
     shares.n_rings = n >= room.least_nodes * n_ranks && may_have_rings(w->of.lattice) ? use.most : 1;
     shares.least_rings = use.least;
     shares.most_ghosts = n / room.part;

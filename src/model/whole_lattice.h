@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What domains are cut from: a lattice, its rigid bodies and scales, and what is found of it once for the cuts of all
+/* What domains are cut from: a lattice and its rigid bodies, and what is found of it once for the cuts of all
  * ranks: which nodes are common, which are whose ghosts, and what is at each node. No compiled model is needed. */
 #ifndef DEM_MODEL_WHOLE_LATTICE_H
 #define DEM_MODEL_WHOLE_LATTICE_H
 
 #include "domain/domain_lists.h"
+#include "lattice/lattice_arrays.h"
 #include "lattice/node_rows.h"
 #include "model/domain_model_shares.h"
 #include "model/model.h"
-#include "model/whole_scales.h"
 
 /** What it is made from, borrowed. */
 typedef struct whole_parts {
     const dem_lattice *lattice; /* whose flags, bodies, positions and velocities are filled */
     const rigid_bodies *rigid;
+    dem_index n[LATTICE_ITEMS]; /* nodes, springs and triangles of the whole */
     bool has_obstacles;
-    whole_scales scales;
+    bool is_slack; /* whether no triangle has an area term or couplings */
 } whole_parts;
 
 typedef struct whole_lattice {

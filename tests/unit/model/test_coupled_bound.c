@@ -33,6 +33,14 @@ static double bound_of(const dem_model *m, const sym2 *coupled, dem_index i, vec
     return xx * u.x * u.x + 2.0 * xy * u.x * u.y + (2.0 * S.yy + 3.0 * T.yy + C->yy) * u.y * u.y;
 }
 
+static void add_couplings(const dem_model *m, sym2 *block)
+{
+    double *given = NULL;
+    assert_ok(coupled_bound_given(&given, &m->lattice, &m->springs));
+    coupled_bound_add(&m->lattice, &m->couplings, given, block);
+    free(given);
+}
+
 /* The largest u.K u over its bound: of one node moved alone, and of nodes moved along the forces of their last
  * displacements, which come near the highest mode. */
 static double closest_to_bound(const dem_lattice *lattice)
@@ -44,7 +52,7 @@ static double closest_to_bound(const dem_lattice *lattice)
     CLEANUP(free_memory) double *u = calloc(4 * (size_t)n, sizeof *u);
     assert_true(coupled != NULL && u != NULL);
     double *force = u + 2 * n, closest = 0.0;
-    assert_ok(coupled_bound_add(&m->lattice, &m->springs, &m->couplings, coupled));
+    add_couplings(m, coupled);
     for (int trial = 0; trial < 400; trial++) {
         double work = 0.0, bound = 0.0, largest = 0.0;
         for (dem_index k = 0; k < 2 * n && trial % 40 == 0; k++) force[k] = 2.0 * gsl_rng_uniform(r) - 1.0;
@@ -96,7 +104,7 @@ TEST(nearly_equilateral_triangles_add_nothing)
     CLEANUP(free_model) dem_model *m = support_model(&lattice, NULL, 0);
     CLEANUP(free_memory) sym2 *coupled = calloc((size_t)lattice.n_nodes, sizeof *coupled);
     assert_non_null(coupled);
-    assert_ok(coupled_bound_add(&m->lattice, &m->springs, &m->couplings, coupled));
+    add_couplings(m, coupled);
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
         const sym2 S = springs_block(&m->springs, m->springs.stiffness_of, i, lattice.x);
         /* 0.1 % from the 1024th root, 1e-6 from the jitter */

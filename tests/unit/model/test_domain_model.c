@@ -109,6 +109,8 @@ static void assert_same_model(const dem_model *m, const dem_model *whole, const 
     assert_same_surface(m, whole);
     assert_true(m->omega_max == whole->omega_max && m->spacing == whole->spacing && m->mass == whole->mass);
     assert_int_equal(m->n_bodies, whole->n_bodies);
+    assert_int_equal(m->edges_are_springs, whole->edges_are_springs);
+    assert_int_equal(m->domain->n_surface_nodes, whole->surface.n_nodes);
 }
 
 /* However domains are made. */
@@ -132,6 +134,22 @@ static void check_own_nodes(const dem_lattice *l, const int32_t *owner)
 TEST(own_nodes_have_what_they_have_in_the_whole)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+    CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
+    check_own_nodes(&l, owner);
+    for (dem_index i = 0; i < l.n_nodes; i++) owner[i] = (int32_t)(7 * i % N_RANKS);
+    check_own_nodes(&l, owner);
+}
+
+/* Springs beside own nodes have shares of triangles that are not in the domain. */
+TEST(own_nodes_have_what_they_have_in_a_whole_of_coupled_springs)
+{
+    const dem_material stiff = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.45, .density = 1050.0,
+                                     .thickness = 1.0, .springs = DEM_SPRINGS_COUPLED);
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
+    assert_ok(dem_lattice_disc(&l, 0.04, 5e-3));
+    assert_ok(dem_lattice_jitter(&l, 1e-3, 3));
+    assert_ok(dem_lattice_assemble(&l, &stiff));
+    assert_non_null(l.coupling);
     CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
     check_own_nodes(&l, owner);
     for (dem_index i = 0; i < l.n_nodes; i++) owner[i] = (int32_t)(7 * i % N_RANKS);
