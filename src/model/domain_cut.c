@@ -2,7 +2,6 @@
 #include "model/domain_cut.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/sorted.h"
 #include "base/status.h"
@@ -94,20 +93,6 @@ static dem_status cut_lattice(domain_cut *c, const draft *s, const whole_lattice
     return lattice_cut_create(&c->around, w->of.lattice, &list);
 }
 
-/* ---- what is known of the whole alone ---- */
-
-static dem_status cut_bodies(dem_model *m, const touching_bodies *whole)
-{
-    touching_bodies *o = m->touching = calloc(1, sizeof *o);
-    CHECK_MEMORY(o);
-    o->domain = m->domain;
-    o->n_bodies = whole->n_bodies;
-    o->bodies = malloc(((size_t)o->n_bodies + 1) * sizeof *o->bodies);
-    CHECK_MEMORY(o->bodies);
-    memcpy(o->bodies, whole->bodies, (size_t)o->n_bodies * sizeof *o->bodies);
-    return DEM_OK;
-}
-
 /* ---- public ---- */
 
 dem_status domain_cut_open(domain_cut *out)
@@ -145,7 +130,6 @@ static dem_status fill(domain_cut *c, draft *s, whole_lattice *w)
     TRY(find_elements(c, s, w));
     TRY(find_nodes(s, c, w));
     TRY(cut_lattice(c, s, w));
-    TRY(cut_bodies(c->model, &w->bodies));
     c->model->domain->n_springs = w->of.n[LATTICE_SPRINGS];
     c->model->domain->n_triangles = w->of.n[LATTICE_TRIANGLES];
     return DEM_OK;
@@ -154,8 +138,10 @@ static dem_status fill(domain_cut *c, draft *s, whole_lattice *w)
 dem_status domain_cut_fill(domain_cut *out, whole_lattice *whole, int rank)
 {
     domain *d = out->model->domain = calloc(1, sizeof *d);
+    touching_bodies *o = out->model->touching = calloc(1, sizeof *o);
     draft s = {0};
-    CHECK_MEMORY(d);
+    CHECK_MEMORY(d != NULL ? o : NULL);
+    o->domain = d;
     TRY(domain_create_within(d, &whole->lists, rank));
     domain_lists_number(&whole->lists, d->number, d->n_nodes);
     const dem_status status = fill(out, &s, whole);

@@ -11,8 +11,8 @@
  *  each node of the domain all triangles are there, and what is beside their sides. Springs are those that join nodes
  *  of the domain. */
 typedef struct domain_cut {
-    /* The domain but for its triangles, rigid bodies, sums over bodies in `touching`; no more, and on a rank that waits
-     * for it nothing but zeros. */
+    /* The domain but for its triangles, rigid bodies, an empty `touching`; no more, and on a rank that waits for it
+     * nothing but zeros. */
     dem_model *model;
     dem_lattice around;
     dem_index *place;    /* [nodes of the domain] their numbers in `around`, ascending */

@@ -15,7 +15,6 @@
 typedef struct head {
     domain domain;              /* without its arrays */
     dem_index n[LATTICE_ITEMS]; /* of the lattice about it */
-    dem_index n_bodies;         /* of which each has its sums */
     dem_index n_rigid, n_rigid_nodes;
 } head;
 
@@ -24,7 +23,6 @@ static head head_of(const domain_cut *c)
     const dem_model *m = c->model;
     head h = {.domain = *m->domain,
               .n = {c->around.n_nodes, c->around.n_springs, c->around.n_triangles},
-              .n_bodies = m->touching->n_bodies,
               .n_rigid = m->rigid.n,
               .n_rigid_nodes = m->rigid.n_nodes};
     h.domain.number = h.domain.spring = NULL;
@@ -52,7 +50,6 @@ static void take_head(domain_cut *c, const head *h)
     c->around.n_springs = h->n[LATTICE_SPRINGS];
     c->around.n_triangles = h->n[LATTICE_TRIANGLES];
     m->touching->domain = m->domain;
-    m->touching->n_bodies = h->n_bodies;
     m->rigid.n = h->n_rigid;
     m->rigid.n_nodes = h->n_rigid_nodes;
 }
@@ -101,7 +98,6 @@ static void list_arrays(parcel *p, domain_cut *c, const head *h)
     list_lattice(p, &c->around);
     list_domain(p, m->domain, h);
     list_rigid(p, &m->rigid, h->domain.n_nodes);
-    parcel_add(p, &m->touching->bodies, (size_t)h->n_bodies * sizeof *m->touching->bodies);
     parcel_add(p, &c->place, n * sizeof *c->place);
     parcel_add(p, &c->triangle, (size_t)h->n[LATTICE_TRIANGLES] * sizeof *c->triangle);
 }

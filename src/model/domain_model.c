@@ -43,7 +43,8 @@ static dem_status join(dem_model *m, const ranks *r, const double *given)
 {
     m->ranks = r;
     m->domain->n_surface_nodes = reduce_count(r, count_own_surface(m));
-    return model_find_scales(m, given);
+    TRY(model_find_scales(m, given));
+    return m->touching != NULL ? touching_bodies_sum_up(m->touching, r, &m->lattice, m->n_bodies) : DEM_OK;
 }
 
 /* Hands the model over if all ranks have theirs. */

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/exact_terms.h"
+#include "base/reduce.h"
 #include "base/status.h"
 #include "base/vec2.h"
 #include "lattice/lattice.h"
@@ -30,42 +31,49 @@ static dem_index body_of(const dem_lattice *l, dem_index node)
     return l->body != NULL ? l->body[node] : 0;
 }
 
-static void add_elements(content_sums *sums, const dem_lattice *l)
+/* Of own springs and triangles: each is of the rank that owns its lowest node. */
+static void add_elements(content_sums *sums, const domain *d, const dem_lattice *l)
 {
     exact_terms terms;
     exact_terms_begin(&terms, &sums[0].springs);
     for (dem_index k = 0; k < l->n_springs; k++)
-        add_term(&terms, &sums[body_of(l, l->ends[2 * k])].springs, l->stiffness[k] * l->rest_length[k]);
+        if (domain_owns(d, domain_lowest(&l->ends[2 * k], 2)))
+            add_term(&terms, &sums[body_of(l, l->ends[2 * k])].springs, l->stiffness[k] * l->rest_length[k]);
     for (dem_index k = 0; k < l->n_triangles; k++)
-        add_term(&terms, &sums[body_of(l, l->triangles[3 * k])].area, vec2_area_of(l->x, &l->triangles[3 * k]));
+        if (domain_owns(d, domain_lowest(&l->triangles[3 * k], 3)))
+            add_term(&terms, &sums[body_of(l, l->triangles[3 * k])].area, vec2_area_of(l->x, &l->triangles[3 * k]));
     exact_terms_end(&terms);
 }
 
-dem_status touching_bodies_sum_up(touching_bodies *out, const dem_lattice *l)
+dem_status touching_bodies_sum_up(touching_bodies *o, const ranks *r, const dem_lattice *l, dem_index n_bodies)
 {
-    const dem_index n = lattice_count_bodies(l);
-    content_sums *sums = calloc((size_t)n + 1, sizeof *sums);
-    body_content *bodies = malloc(((size_t)n + 1) * sizeof *bodies);
-    const bool complete = sums != NULL && bodies != NULL;
-    if (complete) add_elements(sums, l);
-    for (dem_index b = 0; complete && b < n; b++)
-        bodies[b] = (body_content){exact_sum_value(&sums[b].springs), exact_sum_value(&sums[b].area)};
+    content_sums *sums = calloc((size_t)n_bodies + 1, sizeof *sums);
+    o->bodies = malloc(((size_t)n_bodies + 1) * sizeof *o->bodies);
+    const dem_status own = sums != NULL && o->bodies != NULL
+                               ? DEM_OK
+                               : status_fail(DEM_ERROR_MEMORY, "out of memory for %lld bodies", (long long)n_bodies);
+    const dem_status status = reduce_status(r, own, 0.0);
+    if (status == DEM_OK) {
+        o->n_bodies = n_bodies;
+        add_elements(sums, o->domain, l);
+        for (dem_index b = 0; b < n_bodies; b++) {
+            const exact_sum *const both[] = {&sums[b].springs, &sums[b].area};
+            double values[2];
+            reduce_sums(r, both, 2, values);
+            o->bodies[b] = (body_content){values[0], values[1]};
+        }
+    }
     free(sums);
-    if (complete)
-        *out = (touching_bodies){.n_bodies = n, .bodies = bodies};
-    else
-        free(bodies);
-    CHECK(complete, DEM_ERROR_MEMORY, "out of memory for %lld bodies", (long long)n);
-    return DEM_OK;
+    return status;
 }
 
 /* ---- bodies ---- */
 
 dem_status touching_bodies_create(touching_bodies *out, const dem_lattice *lattice)
 {
-    touching_bodies o;
-    TRY(touching_bodies_sum_up(&o, lattice));
-    const dem_status status = mesh_boundary_create(&o.boundary, lattice, NULL);
+    touching_bodies o = {0};
+    dem_status status = touching_bodies_sum_up(&o, &ranks_alone, lattice, lattice_count_bodies(lattice));
+    if (status == DEM_OK) status = mesh_boundary_create(&o.boundary, lattice, NULL);
     if (status == DEM_OK)
         *out = o;
     else

@@ -5,6 +5,7 @@
 #ifndef DEM_MODEL_TOUCHING_BODIES_H
 #define DEM_MODEL_TOUCHING_BODIES_H
 
+#include "base/ranks.h"
 #include "domain/domain.h"
 #include "model/mesh_boundary.h"
 
@@ -26,9 +27,11 @@ typedef struct touching_bodies {
  *  \return DEM_ERROR_MEMORY */
 dem_status touching_bodies_create(touching_bodies *out, const dem_lattice *lattice);
 
-/** The same without the boundary. The sums are exact: their bits do not depend on the order of springs and triangles.
- *  \return DEM_ERROR_MEMORY */
-dem_status touching_bodies_sum_up(touching_bodies *out, const dem_lattice *lattice);
+/** Fills in the sums of all ranks, which are exact: their bits depend neither on the order of springs and triangles nor
+ *  on the shares. Collective.
+ *  \param[in,out] o  with the domain, and without sums  \param l  the lattice of the domain
+ *  \return DEM_ERROR_MEMORY, on all ranks */
+dem_status touching_bodies_sum_up(touching_bodies *o, const ranks *r, const dem_lattice *l, dem_index n_bodies);
 void touching_bodies_free(touching_bodies *o);
 
 /** The number in the whole lattice of node i of the lattice with these bodies; NULL stands for the whole. */

@@ -101,7 +101,6 @@ dem_status whole_lattice_open(whole_lattice *out, const whole_parts *of, int n_r
 {
     mesh_boundary boundary = {0};
     *out = (whole_lattice){.of = *of};
-    TRY(touching_bodies_sum_up(&out->bodies, of->lattice));
     out->is_common = lattice_zeros(of->lattice->n_nodes, sizeof *out->is_common);
     CHECK_MEMORY(out->is_common);
     if (shares->touching) TRY(mesh_boundary_create(&boundary, of->lattice, NULL));
@@ -114,7 +113,6 @@ dem_status whole_lattice_open(whole_lattice *out, const whole_parts *of, int n_r
 
 void whole_lattice_close(whole_lattice *w)
 {
-    touching_bodies_free(&w->bodies);
     domain_lists_free(&w->lists);
     node_rows_free(&w->springs);
     node_rows_free(&w->triangles);

@@ -21,7 +21,6 @@ typedef struct whole_parts {
 
 typedef struct whole_lattice {
     whole_parts of;
-    touching_bodies bodies;   /* sums over them */
     unsigned char *is_common; /* [n_nodes] */
     domain_shares shares;
     domain_lists lists;           /* of the nodes of all ranks */

@@ -145,8 +145,8 @@ typedef struct sums {
 
 static body_content content_of(const dem_lattice *lattice)
 {
-    CLEANUP(touching_bodies_free) touching_bodies bodies;
-    assert_ok(touching_bodies_sum_up(&bodies, lattice));
+    CLEANUP(touching_bodies_free) touching_bodies bodies = {0};
+    assert_ok(touching_bodies_sum_up(&bodies, &ranks_alone, lattice, 1));
     return bodies.bodies[0];
 }
 
