@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Shuffled, the first bytes of all numbers stand one behind the other, then their second bytes, and so on: the *planes*
  * of a chunk. A *slice* of the chunk, some rows of it, has a range of each plane, which is a *section* of the stream:
- * deflated with nothing before it to refer to, and ended at a whole byte (Z_SYNC_FLUSH). The stream of a chunk is
+ * deflated with nothing before it to refer to, and ended at a whole byte. The stream of a chunk is
  *   78 01      zlib's header: a window of 32 KiB, no dictionary
  *   sections   plane by plane, in each of them slice by slice
  *   03 00      an empty last block
@@ -14,16 +14,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
-enum { HEADER = 2, LAST_BLOCK = 2, CHECKSUM = 4, FLUSH = 16 /* more than zlib adds to end a section at a byte */ };
-
-typedef struct section {
-    size_t begin, size; /* in what is shuffled */
-    size_t at, n;       /* where its bytes are in what is packed: first the room for them, then what they take */
-    int strategy;
-    uLong checksum;
-} section;
+enum { HEADER = 2, LAST_BLOCK = 2, CHECKSUM = 4 };
 
 /* Numbers `first` to `end` - 1 of `all`, a slice of them. */
 typedef struct span {
@@ -117,62 +109,43 @@ static void *make_room(void *before, size_t *room, size_t bytes)
     return buffer;
 }
 
-static void end(deflater *d)
+/* The sections as they stand in the stream, each in what is shuffled and with the room that it can take at most. */
+static void place(const chunk *c)
 {
-    for (int k = 0; k < d->n_streams; k++) (void)deflateEnd(&d->streams[k]);
-    free(d->streams);
-    d->streams = NULL;
-    d->n_streams = 0;
-}
-
-/* A stream for each of n threads. */
-static dem_status begin(deflater *d, int level, int n)
-{
-    enum { RAW = -15, MEMORY = 8 }; /* zlib's defaults, without its header and checksum */
-    if (d->n_streams >= n && d->level == level) return DEM_OK;
-    end(d);
-    d->streams = calloc((size_t)n, sizeof *d->streams);
-    CHECK_MEMORY(d->streams);
-    for (d->n_streams = 0; d->n_streams < n; d->n_streams++) {
-        z_stream *z = &d->streams[d->n_streams];
-        if (deflateInit2(z, level, Z_DEFLATED, RAW, MEMORY, Z_DEFAULT_STRATEGY) != Z_OK) break;
+    unsigned char *bytes = c->deflater->shuffled, *packed = c->deflater->packed + HEADER;
+    for (section *s = c->deflater->sections; s < c->deflater->sections + count_sections(c); s++) {
+        s->bytes = bytes;
+        s->packed = packed;
+        bytes += s->size;
+        packed += section_room(s->size);
     }
-    const bool begun = d->n_streams == n;
-    if (!begun) end(d);
-    CHECK(begun, DEM_ERROR_MEMORY, "out of memory to deflate");
-    d->level = level;
-    return DEM_OK;
 }
 
-/* Lays the sections out in the stream, each with the room that it can take at most, so that one call of zlib is
- * enough.  \return the room of all */
-static size_t lay_out(const chunk *c)
+/* \return bytes that the stream can take at most */
+static size_t measure(const chunk *c, int level)
 {
-    size_t at = HEADER;
+    size_t room = HEADER + LAST_BLOCK + CHECKSUM;
     section *s = c->deflater->sections;
     for (int plane = 0; plane < c->n_planes; plane++)
         for (int slice = 0; slice < c->n_slices; slice++, s++) {
             const span p = span_of(c, slice);
-            s->begin = (size_t)plane * p.all + p.first;
             s->size = (p.end - p.first) * (c->numbers.width / (size_t)c->n_planes);
-            s->at = at;
-            s->n = deflateBound(c->deflater->streams, s->size) + FLUSH;
-            at += s->n;
+            s->level = level;
+            room += section_room(s->size);
         }
-    return at + LAST_BLOCK + CHECKSUM;
+    return room;
 }
 
-static dem_status prepare(const chunk *c, int level, int threads)
+static dem_status prepare(const chunk *c, int level)
 {
     deflater *d = c->deflater;
-    const int n = count_sections(c);
-    TRY(begin(d, level, threads < n ? threads : n));
-    d->sections = make_room(d->sections, &d->sections_room, (size_t)n * sizeof *d->sections);
+    d->sections = make_room(d->sections, &d->sections_room, (size_t)count_sections(c) * sizeof *d->sections);
     CHECK_MEMORY(d->sections);
     d->shuffled = make_room(d->shuffled, &d->room, c->all * c->numbers.width);
     CHECK_MEMORY(d->shuffled);
-    d->packed = make_room(d->packed, &d->packed_room, lay_out(c));
+    d->packed = make_room(d->packed, &d->packed_room, measure(c, level));
     CHECK_MEMORY(d->packed);
+    place(c);
     return DEM_OK;
 }
 
@@ -206,63 +179,45 @@ static void shuffle_slice(const void *context, int slice, int thread)
     shuffle(d->shuffled, c->numbers, p);
     for (int plane = 0; plane < c->n_planes; plane++) {
         const size_t seen = c->n_planes > 1 ? (size_t)plane : c->numbers.width / 2;
-        const bool all = d->level > 1 || repeats(d->shuffled + seen * p.all + p.first, p.end - p.first);
-        d->sections[plane * c->n_slices + slice].strategy = all ? Z_DEFAULT_STRATEGY : Z_RLE;
+        section *s = &d->sections[plane * c->n_slices + slice];
+        s->only_runs = s->level == 1 && !repeats(d->shuffled + seen * p.all + p.first, p.end - p.first);
     }
 }
 
-/* Leaves 0 bytes if zlib fails. */
-static void deflate_section(const void *context, int number, int thread)
-{
-    const deflater *d = ((const chunk *)context)->deflater;
-    section *s = &d->sections[number];
-    z_stream *z = &d->streams[thread];
-    (void)deflateReset(z);
-    z->next_in = d->shuffled + s->begin;
-    z->avail_in = (uInt)s->size;
-    z->next_out = d->packed + s->at;
-    z->avail_out = (uInt)s->n;
-    (void)deflateParams(z, d->level, s->strategy);
-    const bool done = deflate(z, Z_SYNC_FLUSH) == Z_OK && z->avail_in == 0 && z->avail_out > 0;
-    s->n = done ? z->total_out : 0;
-    s->checksum = adler32(adler32(0, NULL, 0), d->shuffled + s->begin, (uInt)s->size);
-}
-
-/* Moves the sections together, and writes what is before and behind them.  \return false if one is missing */
-static bool join(deflater *d, int n_sections)
+/* Moves the sections together, and writes what is before and behind them. */
+static void join(deflater *d, int n_sections)
 {
     static const unsigned char header[HEADER] = {0x78, 0x01}, last_block[LAST_BLOCK] = {0x03, 0x00};
+    const uint32_t sum = section_checksum(d->sections, n_sections);
     unsigned char *out = d->packed;
-    uLong sum = adler32(0, NULL, 0);
     memcpy(out, header, sizeof header);
     out += sizeof header;
     for (const section *s = d->sections; s < d->sections + n_sections; s++) {
-        if (s->n == 0) return false;
-        memmove(out, d->packed + s->at, s->n);
-        out += s->n;
-        sum = adler32_combine(sum, s->checksum, (z_off_t)s->size);
+        memmove(out, s->packed, s->n_packed);
+        out += s->n_packed;
     }
     memcpy(out, last_block, sizeof last_block);
     out += sizeof last_block;
     for (int shift = 24; shift >= 0; shift -= 8) *out++ = (unsigned char)(sum >> shift);
     d->n_packed = (size_t)(out - d->packed);
-    return true;
 }
 
-dem_status deflater_pack(deflater *d, deflater_numbers numbers, int level, team *t)
+dem_status deflater_pack(deflater *d, deflater_numbers numbers, int level, deflater_helpers h)
 {
     const chunk c = chunk_of(d, numbers);
     const int n = count_sections(&c);
-    TRY(prepare(&c, level, team_threads(t)));
-    team_run(t, c.n_slices, shuffle_slice, &c);
-    team_run(t, n, deflate_section, &c);
-    CHECK(join(d, n), DEM_ERROR_IO, "%zu bytes cannot be deflated", c.all * numbers.width);
+    bool by_ranks = false;
+    TRY(prepare(&c, level));
+    team_run(h.team, c.n_slices, shuffle_slice, &c);
+    if (h.simulation != NULL && n > 1) TRY(section_pack_by_ranks(h.simulation, d->sections, n, &by_ranks));
+    if (!by_ranks) TRY(section_pack(&d->streams, d->sections, n, h.team));
+    join(d, n);
     return DEM_OK;
 }
 
 void deflater_free(deflater *d)
 {
-    end(d);
+    section_streams_free(&d->streams);
     free(d->shuffled);
     free(d->packed);
     free(d->sections);

@@ -9,7 +9,7 @@
 #include <dem/dem.h>
 #include <stdbool.h>
 
-#include "base/team.h"
+#include "base/section.h"
 
 /** Rows of a slice of a chunk. In chunks of DEFLATER_CUT numbers or more each byte of the numbers of a slice is a
  *  section, in smaller ones all is: each section costs five bytes, and time to begin. */
@@ -17,11 +17,10 @@ enum { DEFLATER_SLICE = 65536, DEFLATER_CUT = 16384 };
 
 /** Zero at first. */
 typedef struct deflater {
-    struct z_stream_s *streams; /**< [n_streams] zlib's, of a level */
-    int n_streams, level;
+    section_streams streams;
     unsigned char *shuffled;                 /**< [room] */
     unsigned char *packed;                   /**< [packed_room] */
-    struct section *sections;                /**< of the stream */
+    section *sections;                       /**< of the stream */
     size_t room, packed_room, sections_room; /**< bytes */
     size_t n_packed;                         /**< bytes that deflater_pack() has left in `packed` */
 } deflater;
@@ -33,11 +32,16 @@ typedef struct deflater_numbers {
     bool narrows; /**< `data` are doubles, of which floats are stored */
 } deflater_numbers;
 
+/** Who packs, to the same bytes. */
+typedef struct deflater_helpers {
+    team *team;                       /**< whose threads do it; NULL: the caller */
+    const dem_simulation *simulation; /**< whose ranks do it, where it leads some; NULL: no others */
+} deflater_helpers;
+
 /** Packs into d->packed, which the next call overwrites.
  *  \param level  1 to 9
- *  \param t      whose threads do it, to the same bytes; NULL: the caller
  *  \return DEM_ERROR_MEMORY */
-dem_status deflater_pack(deflater *d, deflater_numbers numbers, int level, team *t);
+dem_status deflater_pack(deflater *d, deflater_numbers numbers, int level, deflater_helpers h);
 
 void deflater_free(deflater *d);
 

@@ -21,9 +21,9 @@ typedef struct hdf5_file {
     const char *path;
     H5E_auto2_t report; /**< how errors were printed before */
     void *report_data;
-    unsigned plugins;   /**< whether plugins were loaded before */
-    deflater *deflater; /**< of a file that is written to */
-    team *team;         /**< whose threads pack what is written; NULL, as at first: the caller */
+    unsigned plugins;         /**< whether plugins were loaded before */
+    deflater *deflater;       /**< of a file that is written to */
+    deflater_helpers helpers; /**< none at first */
     kept_datasets *kept;
 } hdf5_file;
 

@@ -109,7 +109,7 @@ static dem_status write_chunk(const hdf5_file *file, const hdf5_rows *rows, hid_
     deflater *d = file->deflater;
     const deflater_numbers numbers = {data, rows->chunk, width_of(rows), H5Tget_size(hdf5_file_type(rows->kind)),
                                       rows->kind == HDF5_F32};
-    TRY(deflater_pack(d, numbers, rows->deflate, file->team));
+    TRY(deflater_pack(d, numbers, rows->deflate, file->helpers));
     if (H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, start, d->n_packed, d->packed) < 0)
         return hdf5_fail(file, rows->name, "cannot be written");
     return DEM_OK;

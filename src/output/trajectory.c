@@ -52,7 +52,7 @@ static dem_status open_part(dem_trajectory *t, hsize_t bytes)
 {
     if (t->open) return hdf5_resume(&t->part, bytes);
     TRY(hdf5_open_write(&t->part, part_of(t), bytes));
-    t->part.team = t->rows.team;
+    t->part.helpers.team = t->rows.team;
     if (t->rows.options.stays_open) hdf5_keep(&t->part);
     return DEM_OK;
 }
@@ -98,7 +98,10 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
     TRY(fragment_table_measure(&t->rows.fragments, simulation));
     const hsize_t of_fragments = fragment_table_bytes(&t->rows.fragments);
     TRY(open_part(t, trajectory_rows_flush_bytes(&t->rows) + of_fragments + frames_bytes(f)));
-    TRY(leave_part(t, append_frame(t, &t->part, simulation)));
+    t->part.helpers.simulation = simulation;
+    const dem_status status = append_frame(t, &t->part, simulation);
+    t->part.helpers.simulation = NULL; /* it may end before the trajectory does */
+    TRY(leave_part(t, status));
     f->n++;
     f->last = state.t;
     return DEM_OK;

@@ -4,6 +4,7 @@
 #ifndef DEM_SIMULATION_LED_RANKS_H
 #define DEM_SIMULATION_LED_RANKS_H
 
+#include "base/section.h"
 #include "contact/near_contact.h"
 #include "domain/balance.h"
 #include "simulation/private.h"
@@ -23,11 +24,12 @@ typedef struct calls {
 
 /* What each rank has of it. */
 struct led_run {
-    ranks ranks;           /* which do not end with the model */
-    dem_simulation *whole; /* NULL: this rank follows */
-    dem_model *model;      /* of the part */
-    dem_simulation *part;  /* NULL: there is none */
-    shared_peaks peaks;    /* of the part, and on rank 0 whose they are */
+    ranks ranks;             /* which do not end with the model */
+    dem_simulation *whole;   /* NULL: this rank follows */
+    dem_model *model;        /* of the part */
+    dem_simulation *part;    /* NULL: there is none */
+    shared_peaks peaks;      /* of the part, and on rank 0 whose they are */
+    section_streams streams; /* for sections of files */
     bool is_observed;
     frame_relay frames[OBSERVERS_MOST];
     double busy, entered;       /* s of work since nodes were shared out, and in all at led_ranks_enter() */

@@ -15,6 +15,7 @@
 #include "simulation/rank_shares.h"
 #include "simulation/shared_breaks.h"
 #include "simulation/shared_problem.h"
+#include "simulation/shared_sections.h"
 #include "simulation/shared_use.h"
 #include "simulation/step_parts.h"
 
@@ -23,6 +24,7 @@
 static void drop(led_run *l)
 {
     shared_peaks_drop(&l->peaks);
+    section_streams_free(&l->streams);
     dem_simulation_destroy(l->part);
     dem_model_destroy(l->model);
     l->part = NULL;
@@ -179,6 +181,12 @@ static dem_status gather(const led_run *l)
     return DEM_OK;
 }
 
+static dem_status pack_sections(led_run *l, section *sections, int n)
+{
+    team *t = l->part != NULL ? l->part->team : NULL;
+    return shared_sections_pack(&l->ranks, &l->streams, t, sections, n);
+}
+
 /* The largest struct that an answer fills, and its size first. */
 typedef union answer {
     size_t struct_size;
@@ -221,6 +229,9 @@ static void take_part(led_run *l, const rank_call *o)
     case RANK_CALL_PEAKS_BRING:
     case RANK_CALL_PEAKS_LOOK:
         (void)shared_peaks_answer(&l->peaks, l->part, o);
+        break;
+    case RANK_CALL_PACK:
+        (void)pack_sections(l, NULL, (int)o->number);
         break;
     case RANK_CALL_DROP:
         drop(l);
@@ -297,6 +308,18 @@ void led_run_gather(dem_simulation *whole)
     led_ranks_enter(l);
     (void)gather(l);
     led_ranks_leave(l);
+}
+
+dem_status section_pack_by_ranks(const dem_simulation *simulation, section *sections, int n, bool *by_ranks)
+{
+    led_run *l = simulation->leads;
+    *by_ranks = l != NULL;
+    if (l == NULL) return DEM_OK;
+    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_PACK, .number = n});
+    led_ranks_enter(l);
+    const dem_status status = pack_sections(l, sections, n);
+    led_ranks_leave(l);
+    return status;
 }
 
 void led_run_look_for_overlaps(dem_simulation *part)

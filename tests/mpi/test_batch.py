@@ -13,6 +13,11 @@ import tempfile
 import time
 import unittest
 
+try:
+    import h5py
+except ImportError:
+    h5py = None
+
 MPIRUN = DEM_BATCH = DECK = INPUTS = COMPARE = None
 SECONDS = 60
 SHORT = ["--set", "run.t_end=1e-4", "--set", "body.spacing=1e-2"]
@@ -167,6 +172,21 @@ class UnderMpirun(unittest.TestCase):
         self.assertEqual(self.run_on(2, DEM_BATCH, "--version"), (0, [], []))
 
 
+def stored(path):
+    """Of each dataset the chunks as they are in the file, packed; nothing where there is no h5py."""
+    found = {}
+
+    def look(name, item):
+        if isinstance(item, h5py.Dataset) and item.chunks is not None and not name.startswith("provenance"):
+            places = [item.id.get_chunk_info(k).chunk_offset for k in range(item.id.get_num_chunks())]
+            found[name] = [item.id.read_direct_chunk(place) for place in places]
+
+    if h5py is not None:
+        with h5py.File(path) as file:
+            file.visititems(look)
+    return found
+
+
 class Runs(unittest.TestCase):
     within = ()  # words by which mpirun starts each process of dem_batch
 
@@ -245,6 +265,15 @@ class FreeBodies(Runs):
             code, _, errors = self.run_on(n, "parts", "--set", f"run.t_end={(k + 1) * 2e-3}", deck="large.nml")
             self.assertEqual(code, 0, errors)
         self.assert_same("one", "parts")
+
+    def test_what_ranks_deflate_has_the_bytes_of_one_process(self):
+        frames = ["--set", "run.t_end=1e-3", "--set", "output.frame_interval=5e-4"]
+        self.assertEqual(self.run_on(0, "one", *frames, deck="large.nml")[0], 0)
+        for n in (2, 3):
+            code, _, errors = self.run_on(n, f"ranks{n}", *frames, deck="large.nml")
+            self.assertEqual(code, 0, errors)
+            self.assert_same("one", f"ranks{n}")
+            self.assertEqual(*(stored(self.folder / outdir / "free.vtkhdf") for outdir in ("one", f"ranks{n}")))
 
     def test_rows_left_out_leave_the_checkpoints_of_one_process(self):
         """In flight, on the floor, and off it again: what has been seen last is in them."""

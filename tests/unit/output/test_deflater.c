@@ -18,6 +18,7 @@
 enum { N = 500, LARGE = 2 * DEFLATER_SLICE + 20000 /* rows: two slices and a part of one */ };
 
 static const char *path;
+static const deflater_helpers alone = {NULL, NULL};
 
 /* Deflates the numbers, inflates them, and puts byte k of number j where it belongs. */
 static void pack_and_unpack(deflater *d, deflater_numbers m, int level, void *out)
@@ -25,7 +26,7 @@ static void pack_and_unpack(deflater *d, deflater_numbers m, int level, void *ou
     const size_t count = m.rows * m.columns;
     CLEANUP(free_memory) void *shuffled = malloc(count * m.width);
     uLongf n = count * m.width;
-    assert_ok(deflater_pack(d, m, level, NULL));
+    assert_ok(deflater_pack(d, m, level, alone));
     assert_int_equal(uncompress(shuffled, &n, d->packed, d->n_packed), Z_OK);
     assert_int_equal(n, count * m.width);
     for (size_t j = 0; j < count; j++)
@@ -59,7 +60,7 @@ TEST(equal_numbers_take_a_fiftieth_of_their_room)
 {
     const double zeros[N] = {0.0};
     CLEANUP(deflater_free) deflater d = {0};
-    assert_ok(deflater_pack(&d, (deflater_numbers){zeros, N, 1, 8, false}, 1, NULL));
+    assert_ok(deflater_pack(&d, (deflater_numbers){zeros, N, 1, 8, false}, 1, alone));
     assert_in_range(d.n_packed, 1, sizeof zeros / 50);
 }
 
@@ -70,9 +71,9 @@ TEST(numbers_that_come_again_row_by_row_take_a_fifth_of_their_room)
     double rows[N], others[N];
     CLEANUP(deflater_free) deflater d = {0};
     for (int k = 0; k < N; k++) rows[k] = sin(k % 50), others[k] = sin(k);
-    assert_ok(deflater_pack(&d, (deflater_numbers){rows, N, 1, 8, false}, 1, NULL));
+    assert_ok(deflater_pack(&d, (deflater_numbers){rows, N, 1, 8, false}, 1, alone));
     assert_in_range(d.n_packed, 1, sizeof rows / 5);
-    assert_ok(deflater_pack(&d, (deflater_numbers){others, N, 1, 8, false}, 1, NULL));
+    assert_ok(deflater_pack(&d, (deflater_numbers){others, N, 1, 8, false}, 1, alone));
     assert_in_range(d.n_packed, sizeof others / 2, sizeof others);
 }
 
@@ -83,7 +84,7 @@ TEST(bytes_that_come_again_are_found_beside_those_that_do_not)
     CLEANUP(free_memory) uint64_t *number = malloc(LARGE * sizeof *number);
     CLEANUP(deflater_free) deflater d = {0};
     for (uint64_t k = 0; k < LARGE; k++) number[k] = random_mix(k % 50) << LOWER | random_mix(k) >> UPPER;
-    assert_ok(deflater_pack(&d, (deflater_numbers){number, LARGE, 1, 8, false}, 1, NULL));
+    assert_ok(deflater_pack(&d, (deflater_numbers){number, LARGE, 1, 8, false}, 1, alone));
     assert_in_range(d.n_packed, 5 * LARGE, 5 * LARGE + LARGE / 8);
 }
 
@@ -117,7 +118,7 @@ TEST(random_numbers_come_back_however_a_chunk_is_cut)
 /* Bytes of the sections, without what is before and behind them. */
 static size_t bytes_of(deflater *d, const double *value, size_t rows)
 {
-    assert_ok(deflater_pack(d, (deflater_numbers){value, rows, 1, 8, false}, 1, NULL));
+    assert_ok(deflater_pack(d, (deflater_numbers){value, rows, 1, 8, false}, 1, alone));
     return d->n_packed - 8;
 }
 
@@ -134,10 +135,10 @@ TEST(sections_depend_on_nothing_but_their_piece)
     assert_int_equal(bytes_of(&d, value, ROWS), m + n);
     /* As bytes they have one plane, so that the sections are one behind the other. */
     const deflater_numbers all = {value, ROWS, 1, 1, false}, one = {value, DEFLATER_SLICE, 1, 1, false};
-    assert_ok(deflater_pack(&d, one, 1, NULL));
+    assert_ok(deflater_pack(&d, one, 1, alone));
     const size_t size = d.n_packed - 6;
     memcpy(first, d.packed, size);
-    assert_ok(deflater_pack(&d, all, 1, NULL));
+    assert_ok(deflater_pack(&d, all, 1, alone));
     assert_memory_equal(d.packed, first, size);
 }
 
@@ -152,8 +153,8 @@ TEST(any_number_of_threads_packs_the_same_bytes)
         for (size_t columns = 1; columns <= 3; columns++)
             for (size_t rows = N; rows <= LARGE; rows += LARGE - N) {
                 const deflater_numbers numbers = {value, rows, columns, 4, true};
-                assert_ok(deflater_pack(&one, numbers, 1, NULL));
-                assert_ok(deflater_pack(&several, numbers, 1, t));
+                assert_ok(deflater_pack(&one, numbers, 1, alone));
+                assert_ok(deflater_pack(&several, numbers, 1, (deflater_helpers){.team = t}));
                 assert_int_equal(several.n_packed, one.n_packed);
                 assert_memory_equal(several.packed, one.packed, one.n_packed);
             }
