@@ -7,6 +7,8 @@
 
 #include <dem/dem.h>
 
+#include "base/ranks.h"
+
 typedef struct domain_shares {
     int n_ranks;
     const int32_t *owner;           /* [n_nodes] the rank of each node */
@@ -14,6 +16,8 @@ typedef struct domain_shares {
     int n_rings;                    /* of ghosts, at most; 0: one */
     int least_rings;                /* where fewer have a place there is one */
     dem_index most_ghosts;          /* of all ranks together, in as many rings as have no more */
+    const ranks *counting;          /* NULL: the lattice is the whole; else it is a part, with the ghosts of all ranks
+                                       among the own nodes of this one, and ranks count them together */
 } domain_shares;
 
 /** Whether all ranks integrate node i of the lattice. */

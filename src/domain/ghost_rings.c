@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/grow.h"
+#include "base/reduce.h"
 #include "base/status.h"
 #include "domain/adjacency.h"
 
@@ -75,6 +76,15 @@ static dem_status add_ring(ghost_rings *g, const dem_lattice *l, const domain_sh
     return DEM_OK;
 }
 
+/* Each rank counts those among its own nodes, where no rank has all. */
+static dem_index count_all(const ghost_rings *g, const domain_shares *s)
+{
+    dem_index own = 0;
+    if (s->counting == NULL) return g->n;
+    for (dem_index k = 0; k < g->n; k++) own += s->owner[g->list[k].node] == s->counting->rank;
+    return reduce_count(s->counting, own);
+}
+
 static void keep(ghost_rings *g, int n_rings, dem_index n_nodes)
 {
     dem_index kept = 0;
@@ -98,9 +108,12 @@ dem_status ghost_rings_find(ghost_rings *out, const dem_lattice *whole, const do
     out->row = calloc((size_t)whole->n_nodes + 1, sizeof *out->row);
     CHECK_MEMORY(out->row);
     TRY(add_ring(out, whole, shares, 1));
-    while (out->n_rings < shares->n_rings && out->n <= shares->most_ghosts)
+    dem_index n = count_all(out, shares);
+    while (out->n_rings < shares->n_rings && n <= shares->most_ghosts) {
         TRY(add_ring(out, whole, shares, ++out->n_rings));
-    if (out->n_rings == 1 || out->n <= shares->most_ghosts) return DEM_OK;
+        n = count_all(out, shares);
+    }
+    if (out->n_rings == 1 || n <= shares->most_ghosts) return DEM_OK;
     const int fit = even_rings(shares->n_rings, out->n_rings - 1);
     keep(out, fit >= shares->least_rings ? fit : 1, whole->n_nodes);
     return DEM_OK;

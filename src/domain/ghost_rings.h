@@ -20,7 +20,8 @@ typedef struct ghost_rings {
     dem_index *row; /* [n_nodes + 1] where those of a node begin */
 } ghost_rings;
 
-/** Finds the same on every rank. Free with ghost_rings_free(), after a failure, too.  \return DEM_ERROR_MEMORY */
+/** Finds the same on every rank; of a part of the whole what a rank has, and what others have of it. Collective, where
+ *  ranks count together. Free with ghost_rings_free(), after a failure, too.  \return DEM_ERROR_MEMORY */
 dem_status ghost_rings_find(ghost_rings *out, const dem_lattice *whole, const domain_shares *shares);
 void ghost_rings_free(ghost_rings *g);
 

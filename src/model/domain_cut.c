@@ -129,10 +129,24 @@ static dem_status fill(domain_cut *c, draft *s, whole_lattice *w)
 {
     TRY(find_elements(c, s, w));
     TRY(find_nodes(s, c, w));
-    TRY(cut_lattice(c, s, w));
-    c->model->domain->n_springs = w->of.n[LATTICE_SPRINGS];
-    c->model->domain->n_triangles = w->of.n[LATTICE_TRIANGLES];
-    return DEM_OK;
+    return cut_lattice(c, s, w);
+}
+
+static void renumber(dem_index *list, dem_index n, const dem_index *number)
+{
+    for (dem_index k = 0; k < n && number != NULL; k++) list[k] = number[list[k]];
+}
+
+/* From the numbers of the lattice that the domain is cut from to those of the whole. */
+static void number_by_whole(domain_cut *c, const whole_parts *of)
+{
+    domain *d = c->model->domain;
+    d->n_whole = of->n[LATTICE_NODES];
+    d->n_springs = of->n[LATTICE_SPRINGS];
+    d->n_triangles = of->n[LATTICE_TRIANGLES];
+    renumber(d->number, d->n_nodes, of->number[LATTICE_NODES]);
+    renumber(d->spring, c->around.n_springs, of->number[LATTICE_SPRINGS]);
+    renumber(c->triangle, c->around.n_triangles, of->number[LATTICE_TRIANGLES]);
 }
 
 dem_status domain_cut_fill(domain_cut *out, whole_lattice *whole, int rank)
@@ -148,5 +162,6 @@ dem_status domain_cut_fill(domain_cut *out, whole_lattice *whole, int rank)
     domain_lists_forget(&whole->lists, d->number, d->n_nodes);
     domain_lists_forget(&whole->lists, s.node, s.n[LATTICE_NODES]);
     free(s.node);
+    number_by_whole(out, &whole->of);
     return status;
 }

@@ -61,7 +61,8 @@ static domain_shares shares_of(const whole_lattice *w, int n_ranks, const domain
 {
     domain_shares shares = {.n_ranks = n_ranks,
                             .owner = s->owner,
-                            .is_common = w->is_common,
+                            .is_common = w->of.is_common,
+                            .counting = w->of.counting,
                             .n_rings = s->n_rings,
                             .most_ghosts = INT64_MAX};
     if (s->n_rings > 0) return shares;
@@ -97,16 +98,23 @@ static dem_status list_elements(whole_lattice *w)
     return node_rows_create(&w->triangles, l->triangles, 3, l->n_triangles, l->n_nodes);
 }
 
+static dem_status look_for_common(whole_lattice *w, const domain_model_shares *shares)
+{
+    const dem_lattice *l = w->of.lattice;
+    mesh_boundary boundary = {0};
+    w->is_common = lattice_zeros(l->n_nodes, sizeof *w->is_common);
+    CHECK_MEMORY(w->is_common);
+    w->of.is_common = w->is_common;
+    if (shares->touching) TRY(mesh_boundary_create(&boundary, l, NULL));
+    const dem_status status = find_common(&w->of, shares->touching ? &boundary : NULL, shares->is_near, w->is_common);
+    mesh_boundary_free(&boundary);
+    return status;
+}
+
 dem_status whole_lattice_open(whole_lattice *out, const whole_parts *of, int n_ranks, const domain_model_shares *shares)
 {
-    mesh_boundary boundary = {0};
     *out = (whole_lattice){.of = *of};
-    out->is_common = lattice_zeros(of->lattice->n_nodes, sizeof *out->is_common);
-    CHECK_MEMORY(out->is_common);
-    if (shares->touching) TRY(mesh_boundary_create(&boundary, of->lattice, NULL));
-    const dem_status status = find_common(of, shares->touching ? &boundary : NULL, shares->is_near, out->is_common);
-    mesh_boundary_free(&boundary);
-    TRY(status);
+    if (of->is_common == NULL) TRY(look_for_common(out, shares));
     TRY(find_lists(out, n_ranks, shares));
     return list_elements(out);
 }
