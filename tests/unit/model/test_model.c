@@ -7,6 +7,7 @@
 #include "ask.h"
 #include "forces/forces.h"
 #include "harness/message.h"
+#include "model/model_rules.h"
 
 enum { n_nodes = 4, n_springs = 5, n_triangles = 2 };
 
@@ -148,6 +149,17 @@ TEST(bodies_are_numbered_below_the_number_of_nodes)
     refuse(&s, DEM_ERROR_MODEL, "node 0: body number 4 * 0 * 3");
     s.body[0] = -1;
     refuse(&s, DEM_ERROR_MODEL, "node 0: body number -1 * 0 * 3");
+}
+
+TEST(a_part_may_have_bodies_as_many_as_the_whole_has_nodes)
+{
+    square s;
+    make_square(&s);
+    s.lattice.body = s.body;
+    for (int i = 0; i < n_nodes; i++) s.body[i] = 4;
+    assert_ok(model_rules_check(&s.lattice, 5));
+    assert_int_equal(model_rules_check(&s.lattice, 4), DEM_ERROR_MODEL);
+    assert_message_parts("node 0: body number 4 * 0 * 3");
 }
 
 TEST(springs_join_two_nodes_of_one_body_with_length_and_stiffness)
