@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a rank needs of a lattice that is in slabs so as to find its domain: own nodes, common ones, and those in rings
+ * about them, with all springs and triangles between these. */
+#ifndef DEM_DOMAIN_REGION_H
+#define DEM_DOMAIN_REGION_H
+
+#include "domain/slab_rows.h"
+
+typedef struct region {
+    dem_lattice lattice;              /* nodes, springs and triangles in the order of the whole */
+    dem_index *number[LATTICE_ITEMS]; /* [n] their numbers in the whole, ascending */
+} region;
+
+/** How far it goes. */
+typedef struct region_extent {
+    bool has_common;  /* whether nodes that may touch obstacles are common, */
+    int common_rings; /* with so many rings about them */
+    int rings;        /* about own and common nodes */
+} region_extent;
+
+/** Gathers it from the slabs, ring by ring. Collective; on each rank the same extent. Free with region_free(), after a
+ *  failure, too.  \return DEM_ERROR_MEMORY */
+dem_status region_create(region *out, const slab_rows *rows, const region_extent *extent);
+void region_free(region *g);
+
+#endif
