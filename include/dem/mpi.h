@@ -9,7 +9,8 @@
  *  (dem_model_part()). What goes on is *collective*: all ranks make the same calls in the same order, with the same
  *  arguments, and wait for each other in them. These are
  *
- *      dem_model_create_mpi(), dem_model_create_mpi_for(); dem_model_omega() and dem_model_destroy() of such models
+ *      dem_model_create_mpi(), dem_model_create_mpi_for(), dem_model_create_mpi_slab(); dem_model_omega() and
+ *      dem_model_destroy() of such models
  *      dem_simulation_create(), dem_simulation_resume(), dem_simulation_observe(), dem_simulation_advance()
  *      all that is asked of a motion: dem_simulation_state(), dem_simulation_gather(), and what follows them in
  *      dem/simulation.h, up to dem_simulation_residual()
@@ -78,12 +79,29 @@ DEM_API dem_status dem_model_create_mpi(dem_model **out, const dem_lattice *latt
 DEM_API dem_status dem_model_create_mpi_for(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
                                             dem_index n_obstacles, const dem_options *options, MPI_Comm communicator);
 
+/** The same of a lattice that no rank has: each has a slab of it (dem/slab.h), rank 0 the first one, and owns the nodes
+ *  that are the slab's own. While it works a rank has besides what is near its slab, and what is near nodes that may
+ *  touch obstacles. Springs and triangles are numbered slab by slab, each in the one that owns the lowest of its nodes,
+ *  in the order that they have there. That is the order of lattices which dem/slab.h makes slabs of: runs have the bits
+ *  of one process that has such a lattice.
+ *  For one elastic body of triangles that does not break and does not touch itself: others are refused. Numbers of
+ *  nodes, springs and triangles in messages about a slab are its own.
+ *  \param slab     of this rank, which may be freed afterwards
+ *  \param options  as dem_model_create_mpi_for() has them; NULL: any without contact of bodies
+ *  \return as dem_model_create_mpi_for(); DEM_ERROR_ARGUMENT also if slabs do not follow each other or do not have the
+ *  same arrays; DEM_ERROR_MODEL also for what is not supported, which the message names */
+DEM_API dem_status dem_model_create_mpi_slab(dem_model **out, const dem_slab *slab, const dem_obstacle *obstacles,
+                                             dem_index n_obstacles, const dem_options *options, MPI_Comm communicator);
+
 /** The same for Fortran, where a communicator is an integer: docs/fortran.md has the first one's interface. */
 DEM_API dem_status dem_model_create_mpi_f(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
                                           dem_index n_obstacles, MPI_Fint communicator);
 DEM_API dem_status dem_model_create_mpi_for_f(dem_model **out, const dem_lattice *lattice,
                                               const dem_obstacle *obstacles, dem_index n_obstacles,
                                               const dem_options *options, MPI_Fint communicator);
+DEM_API dem_status dem_model_create_mpi_slab_f(dem_model **out, const dem_slab *slab, const dem_obstacle *obstacles,
+                                               dem_index n_obstacles, const dem_options *options,
+                                               MPI_Fint communicator);
 
 #ifdef __cplusplus
 }

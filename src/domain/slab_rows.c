@@ -138,7 +138,7 @@ static void join_presence(void *packet, const void *other)
     p->lacks |= q->lacks;
 }
 
-/* Without an array of positions the motion starts at x. Node numbers are no items. */
+/* Node numbers are no items. */
 static dem_status find_arrays(slab_rows *s)
 {
     presence p = {0};
@@ -150,10 +150,24 @@ static dem_status find_arrays(slab_rows *s)
     s->ranks->reduce(s->ranks->self, &p, sizeof p, join_presence);
     s->arrays = p.has;
     for (int k = 0; k < LATTICE_ARRAYS; k++) {
-        const bool differs = (p.has & p.lacks) >> k & 1,
-                   may_lack = is_zero_absent(&lattice_arrays[k]) || lattice_arrays[k].offset == AT(position);
-        CHECK(!differs || may_lack, DEM_ERROR_ARGUMENT, "the slabs of %d ranks do not have the same arrays",
-              s->ranks->size);
+        const bool differs = (p.has & p.lacks) >> k & 1;
+        CHECK(!differs || is_zero_absent(&lattice_arrays[k]) || lattice_arrays[k].offset == AT(position),
+              DEM_ERROR_ARGUMENT, "the slabs of %d ranks do not have the same arrays", s->ranks->size);
+    }
+    return DEM_OK;
+}
+
+/* Arrays that other slabs have. Without one of positions the motion starts at x. */
+static dem_status complete_arrays(slab_rows *s)
+{
+    for (int k = 0; k < LATTICE_ARRAYS; k++) {
+        const lattice_array *a = &lattice_arrays[k];
+        if (!slab_rows_has(s, k) || lattice_array_of(&s->lattice, a) != NULL) continue;
+        const bool is_at_x = a->offset == AT(position);
+        void *const array = is_at_x ? s->lattice.x : lattice_zeros(lattice_count(&s->lattice, a->of), a->size);
+        if (!is_at_x) s->zeros[k] = array;
+        CHECK(array != NULL, DEM_ERROR_MEMORY, "out of memory for a slab of %lld nodes", (long long)s->lattice.n_nodes);
+        lattice_array_put(&s->lattice, a, array);
     }
     return DEM_OK;
 }
@@ -172,7 +186,8 @@ static dem_status complete(slab_rows *s, const dem_slab *slab, const place *own)
     }
     free(all);
     TRY(status);
-    return find_arrays(s);
+    TRY(find_arrays(s));
+    return reduce_status(s->ranks, complete_arrays(s), 0.0);
 }
 
 dem_status slab_rows_create(slab_rows *out, const ranks *r, const dem_slab *slab)
@@ -187,6 +202,7 @@ void slab_rows_free(slab_rows *s)
 {
     free(s->first);
     for (int of = 0; of < LATTICE_ITEMS; of++) free(s->number[of]);
+    for (int k = 0; k < LATTICE_ARRAYS; k++) free(s->zeros[k]);
     node_rows_free(&s->springs);
     node_rows_free(&s->triangles);
     *s = (slab_rows){0};
@@ -196,14 +212,11 @@ void slab_rows_free(slab_rows *s)
 
 static bool pack_items(const slab_rows *s, lattice_items of, dem_index at, bundle *to)
 {
-    static const char zeros[3 * sizeof(double)] = {0};
     bool has_room = true;
     for (int k = 0; has_room && k < LATTICE_ARRAYS; k++) {
         const lattice_array *a = &lattice_arrays[k];
         if (a->of != of || !slab_rows_has(s, k)) continue;
-        const void *items = lattice_array_of(&s->lattice, a);
-        if (items == NULL && a->offset == AT(position)) items = s->lattice.x;
-        has_room = bundle_add(to, items != NULL ? (const char *)items + (size_t)at * a->size : zeros, a->size);
+        has_room = bundle_add(to, (const char *)lattice_array_of(&s->lattice, a) + (size_t)at * a->size, a->size);
     }
     return has_room;
 }

@@ -12,7 +12,8 @@
 
 typedef struct slab_rows {
     const ranks *ranks;
-    dem_lattice lattice;              /* of the slab, borrowed */
+    dem_lattice lattice;              /* of the slab, borrowed, with all arrays that any slab has */
+    void *zeros[LATTICE_ARRAYS];      /* those of these that the slab lacks, as their absence stands for zeros */
     dem_index first_node;             /* the number in the whole of its node 0 */
     dem_index *first;                 /* [ranks + 1] the number of the first own node of each rank, and behind all */
     dem_index n[LATTICE_ITEMS];       /* of the whole */

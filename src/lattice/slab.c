@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Slabs of the lattices that are made row by row. The numbers of their nodes and triangles in the whole are counts of
  * rows, so that a slab needs nothing of the others. */
-#include <dem/dem.h>
+#include "lattice/slab.h"
 
 #include <math.h>
 
@@ -101,6 +101,19 @@ static double shortest_side(const dem_lattice *l)
 }
 
 /* ---- public ---- */
+
+dem_status slab_read(dem_slab *ours, const dem_slab *theirs)
+{
+    TRY(check(theirs));
+    *ours = dem_slab_empty();
+    ours->n_nodes = theirs->n_nodes;
+    ours->n_triangles = theirs->n_triangles;
+    ours->first_node = theirs->first_node;
+    ours->first_triangle = theirs->first_triangle;
+    ours->first_own = theirs->first_own;
+    ours->n_own = theirs->n_own;
+    return lattice_read(&ours->lattice, &theirs->lattice);
+}
 
 void dem_slab_free(dem_slab *slab)
 {

@@ -22,10 +22,12 @@
  *   others may happen soon. */
 #include "model/domain_model.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/reduce.h"
 #include "base/status.h"
+#include "domain/region.h"
 #include "model/domain_compile.h"
 #include "model/domain_message.h"
 
@@ -44,6 +46,7 @@ static dem_status join(dem_model *m, const ranks *r, const double *given)
     m->ranks = r;
     m->domain->n_surface_nodes = reduce_count(r, count_own_surface(m));
     TRY(model_find_scales(m, given));
+    CHECK(isfinite(m->omega_max), DEM_ERROR_MODEL, "stiffness over mass is too large to compute with");
     return m->touching != NULL ? touching_bodies_sum_up(m->touching, r, &m->lattice, m->n_bodies) : DEM_OK;
 }
 
@@ -126,4 +129,70 @@ dem_status domain_model_distribute(dem_model **out, const ranks *r, const dem_mo
     dem_status status = distribute(&c, r, whole, shares);
     if (status == DEM_OK) status = domain_compile(&c, obstacles, n_obstacles, shares->touching);
     return finish(out, r, &c, status);
+}
+
+/* ---- from slabs of the whole, of which each rank has one ---- */
+
+static dem_status list_owners(int32_t **owner, const region *g, const slab_rows *rows)
+{
+    *owner = malloc((size_t)g->lattice.n_nodes * sizeof **owner);
+    CHECK_MEMORY(*owner);
+    for (dem_index i = 0; i < g->lattice.n_nodes; i++)
+        (*owner)[i] = (int32_t)slab_rows_owner(rows, g->number[LATTICE_NODES][i]);
+    return DEM_OK;
+}
+
+/* The region is as a whole lattice for this rank; what is found there of other ranks' ghosts need not be all. */
+static dem_status cut_region(domain_cut *c, const region *g, const slab_rows *rows, const whole_parts *of,
+                             domain_model_shares shares)
+{
+    int32_t *owner = NULL;
+    whole_lattice w = {0};
+    dem_status status = list_owners(&owner, g, rows);
+    shares.owner = owner;
+    if (status == DEM_OK) status = whole_lattice_open(&w, of, rows->ranks->size, &shares);
+    if (status == DEM_OK) status = domain_cut_open(c);
+    if (status == DEM_OK) status = domain_cut_fill(c, &w, rows->ranks->rank);
+    whole_lattice_close(&w);
+    free(owner);
+    return status;
+}
+
+static region_extent extent_of(const whole_parts *of, const ranks *r, const domain_model_shares *shares)
+{
+    return (region_extent){.has_common = of->has_obstacles,
+                           .common_rings = of->has_obstacles ? whole_lattice_rings(of->lattice) : 0,
+                           .rings = whole_lattice_most_rings(of, r->size, shares) + 1};
+}
+
+/* Without an array of positions the motion starts at x. */
+static dem_status cut_slabs(domain_cut *c, const slab_rows *rows, const domain_model_shares *shares, bool has_obstacles)
+{
+    const rigid_bodies none = {0};
+    whole_parts of = {.lattice = &rows->lattice,
+                      .rigid = &none,
+                      .n = {rows->n[LATTICE_NODES], rows->n[LATTICE_SPRINGS], rows->n[LATTICE_TRIANGLES]},
+                      .has_obstacles = has_obstacles,
+                      .is_slack = rows->lattice.area_stiffness == NULL && rows->lattice.coupling == NULL,
+                      .counting = rows->ranks};
+    const region_extent extent = extent_of(&of, rows->ranks, shares);
+    region g;
+    dem_status status = region_create(&g, rows, &extent);
+    const bool is_at_x = g.lattice.position == NULL;
+    if (is_at_x) g.lattice.position = g.lattice.x; /* neither is changed */
+    of.lattice = &g.lattice;
+    for (int k = 0; k < LATTICE_ITEMS; k++) of.number[k] = g.number[k];
+    if (status == DEM_OK) status = cut_region(c, &g, rows, &of, *shares);
+    if (is_at_x) g.lattice.position = NULL;
+    region_free(&g);
+    return status;
+}
+
+dem_status domain_model_gather(dem_model **out, const slab_rows *rows, const domain_model_shares *shares,
+                               const dem_obstacle *obstacles, dem_index n_obstacles)
+{
+    domain_cut c = {0};
+    dem_status status = cut_slabs(&c, rows, shares, n_obstacles > 0);
+    if (status == DEM_OK) status = domain_compile(&c, obstacles, n_obstacles, false);
+    return finish(out, rows->ranks, &c, status);
 }

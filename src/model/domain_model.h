@@ -4,6 +4,7 @@
 #ifndef DEM_MODEL_DOMAIN_MODEL_H
 #define DEM_MODEL_DOMAIN_MODEL_H
 
+#include "domain/slab_rows.h"
 #include "model/domain_model_shares.h"
 #include "model/model.h"
 
@@ -24,5 +25,12 @@ dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model 
 dem_status domain_model_distribute(dem_model **out, const ranks *r, const dem_model *whole,
                                    const domain_model_shares *shares, const dem_obstacle *obstacles,
                                    dem_index n_obstacles);
+
+/** The same where each rank has a slab of the whole, and owns the nodes of its range; nobody has the whole, and bodies
+ *  do not touch each other.
+ *  \param rows    of a lattice that has velocities, and nothing rigid or breakable
+ *  \param shares  without owners, and nodes that are near */
+dem_status domain_model_gather(dem_model **out, const slab_rows *rows, const domain_model_shares *shares,
+                               const dem_obstacle *obstacles, dem_index n_obstacles);
 
 #endif

@@ -15,6 +15,8 @@
 #include "lattice/lattice_arrays.h"
 #include "model/breakable_nodes.h"
 #include "model/domain_model.h"
+#include "model/slab_lattice.h"
+#include "obstacle/obstacle_input.h"
 
 /* ---- whether all have the same ---- */
 
@@ -50,11 +52,15 @@ static uint64_t hash_of_obstacle(uint64_t hash, const dem_obstacle *o)
     return hash;
 }
 
+static uint64_t hash_of_obstacles(uint64_t hash, const dem_obstacle *list, dem_index n)
+{
+    for (dem_index k = 0; k < n; k++) hash = hash_of_obstacle(hash, &list[k]);
+    return hash;
+}
+
 static uint64_t hash_of(const dem_model *m)
 {
-    uint64_t hash = hash_of_lattice(&m->lattice);
-    for (dem_index k = 0; k < m->obstacles.n; k++) hash = hash_of_obstacle(hash, &m->obstacles.list[k]);
-    return hash;
+    return hash_of_obstacles(hash_of_lattice(&m->lattice), m->obstacles.list, m->obstacles.n);
 }
 
 static dem_status check_same(const ranks *r, const dem_model *m)
@@ -63,7 +69,7 @@ static dem_status check_same(const ranks *r, const dem_model *m)
     return DEM_OK;
 }
 
-/* ---- public ---- */
+/* ---- of the whole that all ranks have ---- */
 
 /* \param weights  [nodes] NULL: all the same */
 static dem_status find_owners(int32_t **owner, const dem_lattice *whole, const double *weights, int n_ranks)
@@ -110,7 +116,7 @@ static dem_status share(dem_model **out, const ranks *r, const dem_model *whole,
     return DEM_OK;
 }
 
-dem_status dem_private_share_model(dem_model **out, const dem_private_whole *whole, const ranks *r)
+static dem_status share_whole(dem_model **out, const dem_private_whole *whole, const ranks *r)
 {
     dem_model *compiled = NULL;
     int32_t *owner = NULL;
@@ -122,6 +128,53 @@ dem_status dem_private_share_model(dem_model **out, const dem_private_whole *who
     dem_model_destroy(compiled);
     free(owner);
     return status;
+}
+
+/* ---- in slabs ---- */
+
+/* What a rank does by itself. */
+static dem_status prepare_slab(slab_lattice *slab, void **obstacles, const dem_private_whole *of)
+{
+    TRY(of->refused);
+    CHECK(of->touching != DEM_PRIVATE_TOUCHING_SOME, DEM_ERROR_MODEL,
+          "bodies in slabs cannot touch each other, nor themselves: option `bodies`");
+    CHECK(of->n_obstacles >= 0 && (of->n_obstacles == 0 || of->obstacles != NULL), DEM_ERROR_ARGUMENT,
+          "%lld obstacles, obstacles is %s", (long long)of->n_obstacles, of->obstacles ? "given" : "NULL");
+    TRY(obstacle_input_read_all(obstacles, of->obstacles, of->n_obstacles));
+    return slab_lattice_create(slab, of->slab);
+}
+
+static dem_status gather(dem_model **out, const ranks *r, const dem_slab *slab, const dem_private_whole *of,
+                         const dem_obstacle *obstacles)
+{
+    const domain_model_shares shares = {.use = of->use};
+    slab_rows rows;
+    CHECK(reduce_alike(r, hash_of_obstacles(1, obstacles, of->n_obstacles)), DEM_ERROR_ARGUMENT,
+          "the obstacles of the %d ranks differ", r->size);
+    TRY(check_use(r, &shares));
+    dem_status status = slab_rows_create(&rows, r, slab);
+    if (status == DEM_OK) status = domain_model_gather(out, &rows, &shares, obstacles, of->n_obstacles);
+    slab_rows_free(&rows);
+    return status;
+}
+
+static dem_status share_slab(dem_model **out, const dem_private_whole *of, const ranks *r)
+{
+    void *obstacles = NULL;
+    slab_lattice slab = {.slab = dem_slab_empty()};
+    dem_status status = reduce_status(r, prepare_slab(&slab, &obstacles, of), 0.0);
+    if (status == DEM_OK) status = gather(out, r, &slab.slab, of, obstacles);
+    slab_lattice_free(&slab);
+    free(obstacles);
+    if (status == DEM_OK) (*out)->ends_ranks = r->end != NULL;
+    return status;
+}
+
+/* ---- public ---- */
+
+dem_status dem_private_share_model(dem_model **out, const dem_private_whole *whole, const ranks *r)
+{
+    return whole->slab != NULL ? share_slab(out, whole, r) : share_whole(out, whole, r);
 }
 
 dem_status shared_model_distribute(dem_model **out, const dem_model *whole, const dem_private_whole *about,

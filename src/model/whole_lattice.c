@@ -57,38 +57,68 @@ static bool may_have_rings(const dem_lattice *l)
     return l->viscosity == NULL && !breakable_lattice(l);
 }
 
+static ring_room room_of(const whole_parts *of, ring_use use)
+{
+    return of->is_slack ? use.slack : use.stiff;
+}
+
+/* As many as there is a use for. */
+static int rings_for(const whole_parts *of, int n_ranks, const domain_model_shares *s, ring_use use)
+{
+    if (s->n_rings > 0) return s->n_rings;
+    return of->n[LATTICE_NODES] >= room_of(of, use).least_nodes * n_ranks && may_have_rings(of->lattice) ? use.most : 1;
+}
+
 static domain_shares shares_of(const whole_lattice *w, int n_ranks, const domain_model_shares *s, ring_use use)
 {
     domain_shares shares = {.n_ranks = n_ranks,
                             .owner = s->owner,
                             .is_common = w->of.is_common,
                             .counting = w->of.counting,
-                            .n_rings = s->n_rings,
+                            .n_rings = rings_for(&w->of, n_ranks, s, use),
                             .most_ghosts = INT64_MAX};
     if (s->n_rings > 0) return shares;
-    const dem_index n = w->of.n[LATTICE_NODES];
-    const ring_room room = w->of.is_slack ? use.slack : use.stiff;
-    shares.n_rings = n >= room.least_nodes * n_ranks && may_have_rings(w->of.lattice) ? use.most : 1;
     shares.least_rings = use.least;
-    shares.most_ghosts = n / room.part;
+    shares.most_ghosts = w->of.n[LATTICE_NODES] / room_of(&w->of, use).part;
     return shares;
 }
 
+enum { MOST_USES = 2 };
+
 /* Where no use is known there are rings for steps of Verlet's method, so few that they are no burden to Fehlberg's
- * pair; else those that it has a use for. */
-static dem_status find_lists(whole_lattice *w, int n_ranks, const domain_model_shares *s)
+ * pair; else those that it has a use for.  \return how many uses there are, of which the first that fits counts */
+static int list_uses(const domain_model_shares *s, ring_use uses[MOST_USES])
 {
     enum { PAIR_RINGS = 3, LEAST_STEPS = 4, MOST_STEPS = 8 };
-    ring_use both[] = {ring_use_of_steps(LEAST_STEPS, MOST_STEPS), ring_use_of_stages(PAIR_RINGS)};
-    const ring_use *uses = s->use.most > 0 ? &s->use : both;
-    const int n = s->use.most > 0 ? 1 : 2;
-    both[0].slack = both[0].stiff;
+    uses[0] = s->use.most > 0 ? s->use : ring_use_of_steps(LEAST_STEPS, MOST_STEPS);
+    if (s->use.most > 0) return 1;
+    uses[0].slack = uses[0].stiff;
+    uses[1] = ring_use_of_stages(PAIR_RINGS);
+    return MOST_USES;
+}
+
+static dem_status find_lists(whole_lattice *w, int n_ranks, const domain_model_shares *s)
+{
+    ring_use uses[MOST_USES];
+    const int n = list_uses(s, uses);
     for (int k = 0; k < n && w->lists.rings.n_rings <= 1; k++) {
         domain_lists_free(&w->lists);
         w->shares = shares_of(w, n_ranks, s, uses[k]);
         TRY(domain_lists_create(&w->lists, w->of.lattice, &w->shares));
     }
     return DEM_OK;
+}
+
+int whole_lattice_most_rings(const whole_parts *of, int n_ranks, const domain_model_shares *shares)
+{
+    ring_use uses[MOST_USES];
+    const int n = list_uses(shares, uses);
+    int most = 1;
+    for (int k = 0; k < n; k++) {
+        const int rings = rings_for(of, n_ranks, shares, uses[k]);
+        most = rings > most ? rings : most;
+    }
+    return most;
 }
 
 static dem_status list_elements(whole_lattice *w)

@@ -18,7 +18,7 @@ typedef struct whole_parts {
     dem_index n[LATTICE_ITEMS]; /* nodes, springs and triangles of the whole */
     /* [nodes], [springs], [triangles] of the lattice: numbers in the whole, ascending; all NULL: it is the whole */
     const dem_index *number[LATTICE_ITEMS];
-    const unsigned char *is_common; /* [nodes] 1: all ranks integrate it; NULL: that is to be found, of the whole */
+    const unsigned char *is_common; /* [nodes] 1: all ranks integrate it; NULL: that is to be found */
     const ranks *counting;          /* as domain_shares has it */
     bool has_obstacles;
     bool is_slack; /* whether no triangle has an area term or couplings */
@@ -43,6 +43,9 @@ whole_parts whole_parts_of(const dem_model *model);
 dem_status whole_lattice_open(whole_lattice *out, const whole_parts *of, int n_ranks,
                               const domain_model_shares *shares);
 void whole_lattice_close(whole_lattice *w);
+
+/** How many rings of ghosts there are at most. Of the lattice only is looked at which arrays there are. */
+int whole_lattice_most_rings(const whole_parts *of, int n_ranks, const domain_model_shares *shares);
 
 /** How many rings of neighbours about what events may concern ranks have in common. */
 int whole_lattice_rings(const dem_lattice *lattice);

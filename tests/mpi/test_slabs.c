@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Ranks that are processes, each with a slab of a block that falls on a floor: positions, velocities and energies have
+ * the bits of one process that has the whole. `mpirun -n N test_slabs`. */
+#include <stdlib.h>
+
+#include "rank_test.h"
+
+static const double width = 0.05, height = 0.04, spacing = 2.5e-3;
+
+/* The same of the whole and of slabs. */
+static void finish_block(dem_lattice *l)
+{
+    const dem_material solid = {.struct_size = sizeof solid,
+                                .youngs_modulus = 1e7,
+                                .poissons_ratio = 0.3,
+                                .density = 1050.0,
+                                .thickness = 1.0,
+                                .guard = 0.02,
+                                .springs = DEM_SPRINGS_COUPLED};
+    INSIST(dem_lattice_assemble(l, &solid) == DEM_OK);
+    INSIST(dem_lattice_launch(l, (const double[2]){1.0, -4.0}) == DEM_OK);
+    dem_lattice_move(l, 0.02, (const double[2]){0.0, 8e-4});
+}
+
+static dem_lattice make_whole(void)
+{
+    dem_lattice l = dem_lattice_empty();
+    INSIST(dem_lattice_rectangle(&l, width, height, spacing) == DEM_OK);
+    INSIST(dem_lattice_jitter(&l, 0.2 * spacing, 1) == DEM_OK);
+    finish_block(&l);
+    return l;
+}
+
+static dem_slab make_slab(team t)
+{
+    dem_slab s = dem_slab_empty();
+    INSIST(dem_slab_rectangle(&s, width, height, spacing, t.rank, t.size) == DEM_OK);
+    INSIST(dem_slab_jitter(&s, 0.2 * spacing, 1) == DEM_OK);
+    finish_block(&s.lattice);
+    return s;
+}
+
+typedef struct seen {
+    double *x, *v; /* [n][2] of the whole */
+    dem_energy energy;
+    dem_counts counts;
+} seen;
+
+static seen run(const dem_model *model, const dem_options *options, dem_index n)
+{
+    dem_simulation *s = NULL;
+    seen r = {.energy = {.struct_size = sizeof r.energy}, .counts = {.struct_size = sizeof r.counts}};
+    r.x = malloc(2 * (size_t)n * sizeof *r.x);
+    r.v = malloc(2 * (size_t)n * sizeof *r.v);
+    INSIST(r.x != NULL && r.v != NULL);
+    INSIST(dem_simulation_create(&s, model, options) == DEM_OK && dem_simulation_advance(s, 4e-4) == DEM_OK);
+    INSIST(dem_simulation_gather(s, r.x, r.v) == DEM_OK && dem_simulation_energy(s, &r.energy) == DEM_OK);
+    INSIST(dem_simulation_counts(s, &r.counts) == DEM_OK);
+    dem_simulation_destroy(s);
+    return r;
+}
+
+static void compare(const seen *shared, const seen *alone, dem_index n, int rank)
+{
+    const size_t size = 2 * (size_t)n * sizeof(double);
+    INSIST(memcmp(&shared->energy, &alone->energy, sizeof alone->energy) == 0);
+    INSIST(memcmp(&shared->counts, &alone->counts, sizeof alone->counts) == 0);
+    INSIST(rank != 0 || memcmp(shared->x, alone->x, size) == 0);
+    INSIST(rank != 0 || memcmp(shared->v, alone->v, size) == 0);
+    INSIST(alone->counts.events > 10);
+}
+
+static void check(dem_method method, team t)
+{
+    const double points[] = {-0.1, 0.0, 0.0, 2e-4, 0.1, 0.0};
+    const dem_obstacle floor = {
+        .struct_size = sizeof floor, .n_points = 3, .points = points, .restitution = 0.5, .friction = 0.3};
+    dem_options options = dem_options_default();
+    dem_model *model = NULL;
+    dem_lattice whole = make_whole();
+    dem_slab slab = make_slab(t);
+    options.method = method;
+    INSIST(dem_model_create(&model, &whole, &floor, 1) == DEM_OK);
+    seen alone = run(model, &options, whole.n_nodes);
+    dem_model_destroy(model);
+    INSIST(dem_model_create_mpi_slab(&model, &slab, &floor, 1, &options, MPI_COMM_WORLD) == DEM_OK);
+    dem_slab_free(&slab);
+    seen shared = run(model, &options, whole.n_nodes);
+    dem_model_destroy(model);
+    compare(&shared, &alone, whole.n_nodes, t.rank);
+    dem_lattice_free(&whole);
+    free(alone.x);
+    free(alone.v);
+    free(shared.x);
+    free(shared.v);
+}
+
+/* On all ranks, whichever has it. */
+static void refuse(team t)
+{
+    dem_model *model = NULL;
+    dem_slab slab = make_slab(t);
+    dem_options options = dem_options_default();
+    const dem_slab *given = t.rank == t.size - 1 ? NULL : &slab;
+    INSIST(dem_model_create_mpi_slab(&model, given, NULL, 0, NULL, MPI_COMM_WORLD) == DEM_ERROR_ARGUMENT);
+    INSIST(strstr(dem_status_message(), "slab is NULL") != NULL);
+    options.bodies = DEM_BODIES_ALL;
+    options.contact_thickness = spacing;
+    INSIST(dem_model_create_mpi_slab(&model, &slab, NULL, 0, &options, MPI_COMM_WORLD) == DEM_ERROR_MODEL);
+    INSIST(strstr(dem_status_message(), "cannot touch") != NULL && model == NULL);
+    dem_slab_free(&slab);
+}
+
+int main(int argc, char **argv)
+{
+    const team t = rank_test_begin(&argc, &argv);
+    check(DEM_METHOD_FEHLBERG45, t);
+    check(DEM_METHOD_VERLET, t);
+    refuse(t);
+    (void)MPI_Finalize();
+    return 0;
+}

@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Ranks that make slabs of a lattice which nobody has run it with the bits of the whole in one process: free, and
+ * falling on obstacles, with all events and the ledger. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "rank_runs.h"
+#include "support.h"
+
+#include "harness/message.h"
+#include "model/shared_model.h"
+
+enum { FLOOR_POINTS = 61 };
+
+static const double spacing = 2.5e-3, width = 0.07, height = 0.045;
+
+/* ---- scenes ---- */
+
+typedef struct kind {
+    bool has_floor, is_square;
+    double jitter;       /* in spacings */
+    double damping_time; /* s, of springs */
+    dem_springs springs;
+    dem_method method;
+    int rings; /* of ghosts, at most, if they are no more than all nodes; 0: as many as there is a use for */
+} kind;
+
+typedef struct scene {
+    rank_runs_scene run;
+    const kind *kind;
+    double lift; /* m */
+    dem_obstacle floor;
+    double points[2 * FLOOR_POINTS];
+} scene;
+
+/* The same of the whole and of slabs, node by node. */
+static void finish_block(dem_lattice *l, const kind *k, double lift)
+{
+    static const double down[2] = {1.5, -4.0};
+    const dem_material rubber =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1050.0, .thickness = 1.0,
+              .guard = 0.02, .damping_time = k->damping_time, .springs = k->springs);
+    assert_ok(k->is_square ? dem_lattice_assemble_squares(l, &rubber, 0.5) : dem_lattice_assemble(l, &rubber));
+    dem_lattice_move(l, 0.02, (double[]){0.0, lift});
+    assert_ok(dem_lattice_launch(l, down));
+    if (!k->has_floor) rank_runs_set_off(l, 20.0, 1.0);
+}
+
+static dem_lattice make_whole(const kind *k, double lift)
+{
+    dem_lattice l = dem_lattice_empty();
+    assert_ok(k->is_square ? dem_lattice_squares(&l, width, height, spacing)
+                           : dem_lattice_rectangle(&l, width, height, spacing));
+    assert_ok(dem_lattice_jitter(&l, k->jitter * spacing, 5));
+    finish_block(&l, k, lift);
+    return l;
+}
+
+static dem_slab make_slab(const scene *s, int part, int n_parts)
+{
+    const kind *k = s->kind;
+    dem_slab slab = dem_slab_empty();
+    assert_ok(k->is_square ? dem_slab_squares(&slab, width, height, spacing, part, n_parts)
+                           : dem_slab_rectangle(&slab, width, height, spacing, part, n_parts));
+    assert_ok(dem_slab_jitter(&slab, k->jitter * spacing, 5));
+    finish_block(&slab.lattice, k, s->lift);
+    return slab;
+}
+
+static void make_floor(scene *s)
+{
+    for (int k = 0; k < FLOOR_POINTS; k++) {
+        s->points[2 * k] = 0.004 * (k - FLOOR_POINTS / 2);
+        s->points[2 * k + 1] = 3e-4 * sin(2.0 * k);
+    }
+    s->floor = (dem_obstacle)SIZED(dem_obstacle, .n_points = FLOOR_POINTS, .points = s->points, .restitution = 0.3,
+                                   .friction = 0.4);
+}
+
+static void open_scene(scene *s, const kind *k)
+{
+    CLEANUP(dem_lattice_free) dem_lattice flat = make_whole(k, 0.0);
+    *s = (scene){.kind = k, .lift = 5e-4 - support_bottom(&flat)};
+    CLEANUP(dem_lattice_free) dem_lattice l = make_whole(k, s->lift);
+    make_floor(s);
+    s->run = (rank_runs_scene){
+        .model = support_model(&l, &s->floor, k->has_floor ? 1 : 0), .options = dem_options_default(), .t_end = 3e-4};
+    s->run.options.method = k->method;
+    s->run.options.checkpoint_steps = 40;
+}
+
+/* ---- runs ---- */
+
+typedef struct shared_run {
+    const scene *scene;
+    dem_slab slabs[RANK_RUNS_MOST];
+    rank_runs_outcome outcomes[RANK_RUNS_MOST];
+    bool is_cut[RANK_RUNS_MOST]; /* whether the domain is as one that is cut from the whole */
+} shared_run;
+
+static bool is_same_list(const void *a, const void *b, dem_index n, size_t size)
+{
+    return memcmp(a, b, (size_t)n * size) == 0;
+}
+
+static bool is_same_domain(const dem_model *a, const dem_model *b)
+{
+    const domain *d = a->domain, *e = b->domain;
+    const dem_lattice *l = &a->lattice, *m = &b->lattice;
+    bool same = d->n_nodes == e->n_nodes && d->n_whole == e->n_whole && d->n_springs == e->n_springs &&
+                d->n_triangles == e->n_triangles && d->n_surface_nodes == e->n_surface_nodes &&
+                d->n_rings == e->n_rings && d->n_neighbours == e->n_neighbours && l->n_springs == m->n_springs &&
+                l->n_triangles == m->n_triangles && a->spacing == b->spacing && a->omega_max == b->omega_max &&
+                a->mass == b->mass;
+    same = same && is_same_list(d->number, e->number, d->n_nodes, sizeof *d->number) &&
+           is_same_list(d->spring, e->spring, l->n_springs, sizeof *d->spring) &&
+           is_same_list(d->triangle, e->triangle, l->n_triangles, sizeof *d->triangle) &&
+           is_same_list(d->is_own, e->is_own, d->n_nodes, 1) && is_same_list(d->is_ghost, e->is_ghost, d->n_nodes, 1) &&
+           is_same_list(d->is_common, e->is_common, d->n_nodes, 1) &&
+           is_same_list(d->is_outer, e->is_outer, d->n_nodes, 1);
+    for (int k = 0; same && k < d->n_neighbours; k++) {
+        const domain_neighbour *p = &d->neighbours[k], *q = &e->neighbours[k];
+        same = p->rank == q->rank && p->n_sent == q->n_sent && p->n_received == q->n_received &&
+               is_same_list(p->sent, q->sent, p->n_sent, sizeof *p->sent) &&
+               is_same_list(p->received, q->received, p->n_received, sizeof *p->received);
+    }
+    return same;
+}
+
+static ring_use use_of(const kind *k)
+{
+    return k->rings > 0 ? (ring_use){k->rings, 1, {0, 1}, {0, 1}} : (ring_use){0};
+}
+
+/* The domain is cut from the whole by the same owners. */
+static bool is_as_cut(const ranks *r, const shared_run *run, const dem_model *model)
+{
+    const dem_model *whole = run->scene->run.model;
+    int32_t *owner = malloc((size_t)whole->lattice.n_nodes * sizeof *owner);
+    dem_model *cut = NULL;
+    for (int k = 0; k < r->size; k++)
+        for (dem_index i = 0; i < run->slabs[k].n_own; i++)
+            owner[run->slabs[k].first_node + run->slabs[k].first_own + i] = (int32_t)k;
+    const domain_model_shares shares = {.owner = owner, .use = use_of(run->scene->kind)};
+    const bool same = domain_model_create(&cut, r, whole, &shares) == DEM_OK && is_same_domain(model, cut);
+    dem_model_destroy(cut);
+    free(owner);
+    return same;
+}
+
+static void run_rank(const ranks *r, void *context)
+{
+    shared_run *run = context;
+    rank_runs_outcome *o = &run->outcomes[r->rank];
+    const dem_private_whole of = {.slab = &run->slabs[r->rank],
+                                  .obstacles = &run->scene->floor,
+                                  .n_obstacles = run->scene->kind->has_floor ? 1 : 0,
+                                  .use = use_of(run->scene->kind)};
+    dem_model *model = NULL;
+    o->status = dem_private_share_model(&model, &of, r);
+    (void)strncpy(o->message, o->status != DEM_OK ? dem_status_message() : "", sizeof o->message - 1);
+    if (o->status == DEM_OK) run->is_cut[r->rank] = is_as_cut(r, run, model);
+    if (o->status == DEM_OK) rank_runs_go(model, NULL, NULL, o);
+    dem_model_destroy(model);
+}
+
+static void check(const kind *k)
+{
+    scene s;
+    open_scene(&s, k);
+    rank_runs_outcome whole = rank_runs_alone(&s.run);
+    assert_string_equal(whole.message, "");
+    assert_true(!k->has_floor || whole.n_notes > 10);
+    for (int n = 1; n <= 4; n++) {
+        shared_run run = {.scene = &s};
+        for (int part = 0; part < n; part++) run.slabs[part] = make_slab(&s, part, n);
+        rank_runs_make_outcomes(&s.run, n, run.outcomes);
+        rank_threads_run(n, run_rank, &run);
+        for (int rank = 0; rank < n; rank++) {
+            const char *what = rank_runs_difference(&run.outcomes[rank], &whole, NULL);
+            if (what != NULL) fail_msg("rank %d of %d has another %s: '%s'", rank, n, what, run.outcomes[rank].message);
+            assert_true(run.is_cut[rank]);
+        }
+        rank_runs_free_outcomes(run.outcomes, n);
+        for (int part = 0; part < n; part++) dem_slab_free(&run.slabs[part]);
+    }
+    rank_runs_free_outcome(&whole);
+    dem_model_destroy(s.run.model);
+}
+
+TEST(a_free_block_in_slabs_moves_as_the_whole)
+{
+    check(&(kind){.method = DEM_METHOD_FEHLBERG45});
+    check(&(kind){.method = DEM_METHOD_VERLET, .is_square = true, .jitter = 0.2});
+    check(
+        &(kind){.method = DEM_METHOD_FEHLBERG45, .jitter = 0.3, .springs = DEM_SPRINGS_COUPLED, .damping_time = 1e-6});
+}
+
+TEST(a_free_block_in_slabs_has_rings_of_ghosts_as_the_whole)
+{
+    check(&(kind){.method = DEM_METHOD_FEHLBERG45, .rings = 3});
+    check(&(kind){.method = DEM_METHOD_VERLET, .rings = 8});
+    check(&(kind){.method = DEM_METHOD_VERLET, .is_square = true, .rings = 4, .has_floor = true});
+}
+
+TEST(a_block_in_slabs_falls_on_obstacles_as_the_whole)
+{
+    check(&(kind){.has_floor = true, .method = DEM_METHOD_FEHLBERG45});
+    check(&(kind){.has_floor = true, .method = DEM_METHOD_VERLET, .is_square = true});
+    check(&(kind){.has_floor = true,
+                  .method = DEM_METHOD_VERLET,
+                  .jitter = 0.2,
+                  .springs = DEM_SPRINGS_COUPLED,
+                  .damping_time = 1e-6});
+}
+
+/* ---- what is refused ---- */
+
+static void expect_refusal(shared_run *run, int n, dem_status status, const char *message)
+{
+    rank_threads_run(n, run_rank, run);
+    for (int k = 0; k < n; k++) {
+        assert_int_equal(run->outcomes[k].status, status);
+        if (!message_has_parts(run->outcomes[k].message, message))
+            fail_msg("'%s' has not the parts '%s'", run->outcomes[k].message, message);
+    }
+}
+
+TEST(slabs_refuse_what_they_cannot_be_of_on_all_ranks)
+{
+    const kind plain = {.method = DEM_METHOD_VERLET};
+    const scene s = {.kind = &plain};
+    shared_run run = {.scene = &s};
+    double *kept, *strength;
+    for (int part = 0; part < 2; part++) run.slabs[part] = make_slab(&s, part, 2);
+    dem_lattice *l = &run.slabs[1].lattice;
+    strength = malloc((size_t)l->n_triangles * sizeof *strength);
+    for (dem_index t = 0; t < l->n_triangles; t++) strength[t] = 1e6;
+    l->strength = strength;
+    expect_refusal(&run, 2, DEM_ERROR_MODEL, "may break are not supported");
+    l->strength = NULL;
+    free(strength);
+    kept = l->mass;
+    l->mass = NULL;
+    expect_refusal(&run, 2, DEM_ERROR_ARGUMENT, "no array of masses");
+    l->mass = kept;
+    assert_ok(dem_lattice_stiffen(l, DEM_GUIDE_NONE));
+    expect_refusal(&run, 2, DEM_ERROR_MODEL, "rigid bodies are not supported");
+    run.slabs[1].first_node++;
+    memset(l->flags, 0, (size_t)l->n_nodes);
+    expect_refusal(&run, 2, DEM_ERROR_ARGUMENT, "no part of");
+    for (int part = 0; part < 2; part++) dem_slab_free(&run.slabs[part]);
+}
