@@ -20,6 +20,7 @@ typedef struct numbers {
 /* A region in the making. Corners are numbers of the whole until it is in order. */
 typedef struct draft {
     const slab_rows *rows;
+    bool has_own;      /* whether own nodes are known, or about to be */
     numbers known;     /* nodes that have been asked for, ascending */
     numbers next;      /* nodes next to these, as they have come */
     numbers wanted;    /* nodes to be asked for, ascending */
@@ -94,7 +95,8 @@ static bool take_next(draft *d, dem_index n, const bundle *from, dem_index *at)
     for (dem_index k = 0; has_room && k < n; k++) {
         dem_index number;
         bundle_take(from, at, &number, sizeof number);
-        has_room = add(&d->next, number);
+        const bool is_own = slab_rows_owner(d->rows, number) == d->rows->ranks->rank;
+        has_room = (d->has_own && is_own) || add(&d->next, number);
     }
     return has_room;
 }
@@ -277,17 +279,38 @@ static dem_status fetch_common(draft *d, int n_rings)
     return status == DEM_OK ? fetch_rings(d, n_rings) : status;
 }
 
-static dem_status fetch_own(draft *d)
+static dem_status list_own(draft *d)
 {
     const dem_index *own = d->rows->first + d->rows->ranks->rank;
     numbers list = {0};
     dem_status status = DEM_OK;
     for (dem_index number = own[0]; status == DEM_OK && number < own[1]; number++)
         if (!add(&list, number)) status = lacks_memory();
-    status = reduce_status(d->rows->ranks, status, 0.0);
-    if (status == DEM_OK) status = fetch_list(d, &list);
+    if (status == DEM_OK) status = want(d, &list);
     free(list.list);
     return status;
+}
+
+/* Row by row, without a message: there are many. */
+static dem_status take_own(draft *d)
+{
+    bundle row = {0};
+    dem_status status = DEM_OK;
+    d->has_own = true;
+    for (dem_index k = 0; status == DEM_OK && k < d->wanted.n; k++) {
+        row.n = 0;
+        status = slab_rows_pack(d->rows, d->wanted.list[k], &row) ? take_rows(d, &row) : lacks_memory();
+    }
+    bundles_free(&row, 1);
+    return status;
+}
+
+static dem_status fetch_own(draft *d)
+{
+    dem_status status = list_own(d);
+    if (status == DEM_OK) status = take_own(d);
+    if (status == DEM_OK) status = merge_known(d);
+    return reduce_status(d->rows->ranks, status, 0.0);
 }
 
 /* ---- in the order of the whole ---- */
