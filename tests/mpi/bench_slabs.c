@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A square of equilateral triangles in slabs, which no rank has as a whole: time of set-up, memory that a rank has
- * taken at most in it and in all, and ns per node and evaluation of steps in free flight.
+/* A square of equilateral triangles falls on a flat floor, a tenth of a spacing below it: in slabs, which no rank has
+ * as a whole, or on one rank as a whole. Time of set-up, memory that a rank has taken at most in it and in all, ns per
+ * node and evaluation, events, and energies at the end to the last bit, which any number of ranks has.
  *
  *      mpirun -n N bench_slabs NODES METHOD STEPS */
 #define _XOPEN_SOURCE 700
@@ -11,19 +12,26 @@
 
 static const double spacing = 5e-3;
 
-static dem_slab make_slab(dem_index nodes, team t)
+static const double down[2] = {0.0, -10.0}, drop[2] = {0.0, 5e-4};
+static const double points[] = {-1000.0, 0.0, 1000.0, 0.0};
+static const dem_obstacle ground = {
+    .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .restitution = 0.5};
+
+static double side_of(dem_index nodes)
 {
-    const double side = spacing * (sqrt((double)nodes * sqrt(3.0) / 2.0) - 0.5);
+    return spacing * (sqrt((double)nodes * sqrt(3.0) / 2.0) - 0.5);
+}
+
+static void make_solid(dem_lattice *l)
+{
     const dem_material solid = {.struct_size = sizeof solid,
                                 .youngs_modulus = 1e7,
                                 .poissons_ratio = 1.0 / 3.0,
                                 .density = 1050.0,
                                 .thickness = 1.0};
-    dem_slab s = dem_slab_empty();
-    ask(dem_slab_rectangle(&s, side, side, spacing, t.rank, t.size));
-    ask(dem_lattice_assemble(&s.lattice, &solid));
-    ask(dem_lattice_launch(&s.lattice, (const double[2]){1.0, 0.0}));
-    return s;
+    ask(dem_lattice_assemble(l, &solid));
+    dem_lattice_move(l, 0.0, drop);
+    ask(dem_lattice_launch(l, down));
 }
 
 /* The largest of all ranks. */
@@ -42,13 +50,25 @@ static double peak(void)
     return largest((double)use.ru_maxrss * 1.024e-3);
 }
 
-static dem_model *set_up(dem_index nodes, const dem_options *options, team t, dem_index *n_whole)
+static dem_model *make_whole(dem_index nodes)
 {
     dem_model *model = NULL;
-    dem_slab slab = make_slab(nodes, t);
-    *n_whole = slab.n_nodes;
-    ask(dem_model_create_mpi_slab(&model, &slab, NULL, 0, options, MPI_COMM_WORLD));
-    dem_slab_free(&slab);
+    dem_lattice l = dem_lattice_empty();
+    ask(dem_lattice_rectangle(&l, side_of(nodes), side_of(nodes), spacing));
+    make_solid(&l);
+    ask(dem_model_create(&model, &l, &ground, 1));
+    dem_lattice_free(&l);
+    return model;
+}
+
+static dem_model *make_shared(dem_index nodes, const dem_options *options, team t)
+{
+    dem_model *model = NULL;
+    dem_slab s = dem_slab_empty();
+    ask(dem_slab_rectangle(&s, side_of(nodes), side_of(nodes), spacing, t.rank, t.size));
+    make_solid(&s.lattice);
+    ask(dem_model_create_mpi_slab(&model, &s, &ground, 1, options, MPI_COMM_WORLD));
+    dem_slab_free(&s);
     return model;
 }
 
@@ -57,14 +77,14 @@ int main(int argc, char **argv)
     const team t = rank_test_begin(&argc, &argv);
     dem_options options = dem_options_default();
     dem_counts counts = {.struct_size = sizeof counts};
+    dem_energy energy = {.struct_size = sizeof energy};
     dem_simulation *s = NULL;
-    dem_index n = 0;
     must(argc == 4, "NODES METHOD STEPS");
     ask(dem_method_find(&options.method, argv[2]));
     options.checkpoint_steps = 0;
-    options.gravity[1] = 0.0;
     const double begin = seconds(CLOCK_MONOTONIC);
-    dem_model *model = set_up((dem_index)atof(argv[1]), &options, t, &n);
+    const dem_index n = (dem_index)atof(argv[1]);
+    dem_model *model = t.size > 1 ? make_shared(n, &options, t) : make_whole(n);
     const double set_up_time = largest(seconds(CLOCK_MONOTONIC) - begin), set_up_peak = peak();
     ask(dem_simulation_create(&s, model, &options));
     ask(dem_simulation_options(s, &options));
@@ -72,12 +92,15 @@ int main(int argc, char **argv)
     ask(dem_simulation_advance(s, atof(argv[3]) * options.max_step));
     const double taken = largest(seconds(CLOCK_MONOTONIC) - from);
     ask(dem_simulation_counts(s, &counts));
+    ask(dem_simulation_energy(s, &energy));
     const double all = peak();
     if (t.rank == 0) {
         (void)printf("%lld nodes, %d ranks: set up in %.2f s, at most %.0f MB a rank; ", (long long)n, t.size,
                      set_up_time, set_up_peak);
-        (void)printf("%lld steps, %.2f ns per node and evaluation, at most %.0f MB a rank\n", (long long)counts.steps,
+        (void)printf("%lld steps, %lld events, %.2f ns per node and evaluation, at most %.0f MB a rank; ",
+                     (long long)counts.steps, (long long)counts.events,
                      1e9 * taken / (double)n / (double)counts.evaluations, all);
+        (void)printf("energies %a %a %a J\n", energy.kinetic, energy.elastic, energy.impact);
     }
     dem_simulation_destroy(s);
     dem_model_destroy(model);
