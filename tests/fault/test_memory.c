@@ -76,7 +76,7 @@ static dem_status read_mesh(void)
 {
     static const char text[] = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n"
                                "0 1 0\n$EndNodes\n$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n";
-    const dem_mesh mesh = {.struct_size = sizeof(dem_mesh), .path = "fault.msh", .scale = 1.0, .numbered = true};
+    const dem_mesh mesh = {.struct_size = sizeof(dem_mesh), .path = "memory.msh", .scale = 1.0, .numbered = true};
     CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     FILE *file = fopen(mesh.path, "w");
     assert_non_null(file);
