@@ -8,6 +8,7 @@
 #include "base/reduce.h"
 #include "base/sorted.h"
 #include "base/status.h"
+#include "domain/domain.h"
 #include "lattice/lattice.h"
 
 /* ---- places ---- */
@@ -33,18 +34,11 @@ static bool is_own(const dem_slab *slab, dem_index i)
     return i >= slab->first_own && i < slab->first_own + slab->n_own;
 }
 
-static dem_index lowest_of(const dem_index *corner, int arity)
-{
-    dem_index lowest = corner[0];
-    for (int c = 1; c < arity; c++) lowest = corner[c] < lowest ? corner[c] : lowest;
-    return lowest;
-}
-
 /* Numbers owned springs or triangles from 0 on.  \return how many there are */
 static dem_index number_owned(dem_index *number, const dem_slab *slab, const dem_index *corner, int arity, dem_index n)
 {
     dem_index owned = 0;
-    for (dem_index k = 0; k < n; k++) number[k] = is_own(slab, lowest_of(corner + arity * k, arity)) ? owned++ : -1;
+    for (dem_index k = 0; k < n; k++) number[k] = is_own(slab, domain_lowest(corner + arity * k, arity)) ? owned++ : -1;
     return owned;
 }
 
@@ -241,7 +235,7 @@ static tuples triangles_of(const slab_rows *s)
 
 static bool is_owned_by(const tuples *t, dem_index k, dem_index i)
 {
-    return lowest_of(t->corner + t->arity * k, t->arity) == i;
+    return domain_lowest(t->corner + t->arity * k, t->arity) == i;
 }
 
 static dem_index count_owned(const tuples *t, dem_index i)

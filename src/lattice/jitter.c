@@ -30,20 +30,13 @@ static vec2 random_shift(uint64_t seed, dem_index node, double radius)
     return vec2_scale(radius, place);
 }
 
-/* Signed area, m^2, of a triangle at the positions x. */
-static double area_of(const double *x, const dem_index *corner)
-{
-    const vec2 a = vec2_at(x, corner[0]);
-    return 0.5 * vec2_cross(vec2_sub(vec2_at(x, corner[1]), a), vec2_sub(vec2_at(x, corner[2]), a));
-}
-
 /* Jitter is measured by the areas before it, so these must be positive. */
 static dem_status check_areas(const dem_lattice *l)
 {
     for (dem_index t = 0; t < l->n_triangles; t++)
-        CHECK(lattice_is_positive(area_of(l->x, l->triangles + 3 * t)), DEM_ERROR_MODEL,
+        CHECK(lattice_is_positive(vec2_area_of(l->x, l->triangles + 3 * t)), DEM_ERROR_MODEL,
               "triangle %lld has the area %g m^2; it must be > 0 to be jittered", (long long)t,
-              area_of(l->x, l->triangles + 3 * t));
+              vec2_area_of(l->x, l->triangles + 3 * t));
     return DEM_OK;
 }
 
@@ -54,7 +47,7 @@ static bool mark_squeezed(const dem_lattice *l, const double *x, unsigned char *
     memset(marked, 0, (size_t)l->n_nodes);
     for (dem_index t = 0; t < l->n_triangles; t++) {
         const dem_index *corner = l->triangles + 3 * t;
-        if (area_of(x, corner) >= least_area * area_of(l->x, corner)) continue;
+        if (vec2_area_of(x, corner) >= least_area * vec2_area_of(l->x, corner)) continue;
         any = true;
         for (int c = 0; c < 3; c++) marked[corner[c]] = 1;
     }
