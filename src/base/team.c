@@ -28,16 +28,16 @@
 #include "base/cores.h"
 
 enum {
-    SHARES_OF_THREAD = 4, /* at most */
-    LINGER = 20000,       /* ns that a helper looks for work: about what it takes to wake one */
-    LOOKS = 32,           /* between two looks at the clock */
-    TOLERATED = 200000,   /* ns that may be lost before the caller works alone, */
-    ALONE = 32,           /* for this multiple of what is lost */
-    KEPT = 2000000,       /* ns of gains, at most, that later losses are set against */
-    TRIAL = 500000,       /* ns for which the caller takes loops alone to learn how long they take, */
-    TRIALS = 50000000,    /* ns from one trial to the next */
-    SHORT = 100000,       /* ns of a loop that takes part in them */
-    KINDS = 8             /* of loops that are remembered */
+    SHARES_OF_THREAD = 4,      /* at most */
+    LINGER = 20000,            /* ns that a helper looks for work: about what it takes to wake one */
+    LOOKS = 32,                /* between two looks at the clock */
+    TOLERATED = 200000,        /* ns that may be lost before the caller works alone, */
+    ALONE = 32,                /* for this multiple of what is lost */
+    KEPT = 2000000,            /* ns of gains, at most, that later losses are set against */
+    TRIAL = 500000,            /* ns for which the caller takes loops alone to learn how long they take, */
+    BETWEEN_TRIALS = 50000000, /* ns */
+    SHORT = 100000,            /* ns of a loop that takes part in them */
+    KINDS = 8                  /* of loops that are remembered */
 };
 
 /* Loops of one kind: the work, and into how many shares it is divided. */
@@ -258,7 +258,7 @@ static bool is_short(const loop_kind *kind)
 static bool takes_alone(team *t, const loop_kind *kind, int64_t begin)
 {
     if (begin < t->alone_until) return true;
-    if (begin > t->trial + TRIAL) t->trial = begin + TRIALS;
+    if (begin > t->trial + TRIAL) t->trial = begin + BETWEEN_TRIALS;
     return begin >= t->trial && is_short(kind);
 }
 

@@ -108,17 +108,6 @@ static dem_status check_places(const slab_rows *s, const dem_slab *slab, const p
 
 /* ---- arrays ---- */
 
-#define AT(member) offsetof(dem_lattice, member)
-
-/* Whether the absence of an array stands for zeros. */
-static bool is_zero_absent(const lattice_array *a)
-{
-    static const size_t members[] = {AT(velocity), AT(viscosity), AT(guard), AT(area_stiffness), AT(coupling)};
-    bool found = false;
-    for (size_t k = 0; k < sizeof members / sizeof *members; k++) found = found || members[k] == a->offset;
-    return found;
-}
-
 /* Which arrays some rank has, and which some rank lacks. */
 typedef struct presence {
     uint32_t has, lacks;
@@ -138,31 +127,15 @@ static dem_status find_arrays(slab_rows *s)
     presence p = {0};
     for (int k = 0; k < LATTICE_ARRAYS; k++) {
         const lattice_array *a = &lattice_arrays[k];
-        if (a->offset == AT(ends) || a->offset == AT(triangles) || lattice_count(&s->lattice, a->of) == 0) continue;
+        const bool is_corners =
+            a->offset == offsetof(dem_lattice, ends) || a->offset == offsetof(dem_lattice, triangles);
+        if (is_corners || lattice_count(&s->lattice, a->of) == 0) continue;
         *(lattice_array_of(&s->lattice, a) != NULL ? &p.has : &p.lacks) |= (uint32_t)1 << k;
     }
     s->ranks->reduce(s->ranks->self, &p, sizeof p, join_presence);
     s->arrays = p.has;
-    for (int k = 0; k < LATTICE_ARRAYS; k++) {
-        const bool differs = (p.has & p.lacks) >> k & 1;
-        CHECK(!differs || is_zero_absent(&lattice_arrays[k]) || lattice_arrays[k].offset == AT(position),
-              DEM_ERROR_ARGUMENT, "the slabs of %d ranks do not have the same arrays", s->ranks->size);
-    }
-    return DEM_OK;
-}
-
-/* Arrays that other slabs have. Without one of positions the motion starts at x. */
-static dem_status complete_arrays(slab_rows *s)
-{
-    for (int k = 0; k < LATTICE_ARRAYS; k++) {
-        const lattice_array *a = &lattice_arrays[k];
-        if (!slab_rows_has(s, k) || lattice_array_of(&s->lattice, a) != NULL) continue;
-        const bool is_at_x = a->offset == AT(position);
-        void *const array = is_at_x ? s->lattice.x : lattice_zeros(lattice_count(&s->lattice, a->of), a->size);
-        if (!is_at_x) s->zeros[k] = array;
-        CHECK(array != NULL, DEM_ERROR_MEMORY, "out of memory for a slab of %lld nodes", (long long)s->lattice.n_nodes);
-        lattice_array_put(&s->lattice, a, array);
-    }
+    CHECK((p.has & p.lacks) == 0, DEM_ERROR_ARGUMENT, "the slabs of %d ranks do not have the same arrays",
+          s->ranks->size);
     return DEM_OK;
 }
 
@@ -180,8 +153,7 @@ static dem_status complete(slab_rows *s, const dem_slab *slab, const place *own)
     }
     free(all);
     TRY(status);
-    TRY(find_arrays(s));
-    return reduce_status(s->ranks, complete_arrays(s), 0.0);
+    return find_arrays(s);
 }
 
 dem_status slab_rows_create(slab_rows *out, const ranks *r, const dem_slab *slab)
@@ -196,7 +168,6 @@ void slab_rows_free(slab_rows *s)
 {
     free(s->first);
     for (int of = 0; of < LATTICE_ITEMS; of++) free(s->number[of]);
-    for (int k = 0; k < LATTICE_ARRAYS; k++) free(s->zeros[k]);
     node_rows_free(&s->springs);
     node_rows_free(&s->triangles);
     *s = (slab_rows){0};

@@ -12,8 +12,7 @@
 
 typedef struct slab_rows {
     const ranks *ranks;
-    dem_lattice lattice;              /* of the slab, borrowed, with all arrays that any slab has */
-    void *zeros[LATTICE_ARRAYS];      /* those of these that the slab lacks, as their absence stands for zeros */
+    dem_lattice lattice;              /* of the slab, borrowed */
     dem_index first_node;             /* the number in the whole of its node 0 */
     dem_index *first;                 /* [ranks + 1] the number of the first own node of each rank, and behind all */
     dem_index n[LATTICE_ITEMS];       /* of the whole */
@@ -22,8 +21,8 @@ typedef struct slab_rows {
     uint32_t arrays;                  /* bit k: lattice_arrays[k] is in rows */
 } slab_rows;
 
-/** Finds the places of all slabs. Borrows ranks and the arrays of the slab, of which flags and bodies are filled.
- *  Collective. Free with slab_rows_free(), after a failure, too.
+/** Finds the places of all slabs. Borrows ranks and the arrays of the slab, of which flags, bodies and
+ *  velocities are filled. Collective. Free with slab_rows_free(), after a failure, too.
  *  \return DEM_ERROR_ARGUMENT where slabs do not follow each other, rank by rank, or do not have the same arrays;
  *          DEM_ERROR_MEMORY */
 dem_status slab_rows_create(slab_rows *out, const ranks *r, const dem_slab *slab);

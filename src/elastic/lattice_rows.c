@@ -265,7 +265,7 @@ static double onset_of(finder *f, int32_t lowest, int32_t next, int32_t last)
         if (!(triangles_guard(t, p) > 0.0)) break;
         if (!is_asked_for(f, lowest) && !is_asked_for(f, next) && !is_asked_for(f, last)) break;
         f->out->guarded = true;
-        return 1.001 * TRIANGLES_GUARD_ONSET * triangles_rest_area(t, lowest, p);
+        return TRIANGLES_ROUNDED * TRIANGLES_GUARD_ONSET * triangles_rest_area(t, lowest, p);
     }
     return (double)-INFINITY;
 }

@@ -539,7 +539,7 @@ INLINE unsigned find_lowest(const sweep *s, dem_index block)
     const intern_span span = l->lowest.span[block];
     const layout_entry *entries = l->lowest.entries.items;
     const double *sets = l->areas.items, *here = s->x + 2 * LAYOUT_LANES * block;
-    const lanes twice = lanes_all(2.0 * 1.001);
+    const lanes twice = lanes_all(2.0 * TRIANGLES_ROUNDED);
     const pairs x = pairs_load(here);
     unsigned folded = 0;
     for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {

@@ -11,6 +11,10 @@
 /** The guard acts where J = area / rest area is below this. */
 #define TRIANGLES_GUARD_ONSET 0.4
 
+/** Areas differ by rounding from corner to corner: who looks from one corner whether the guard may act at another takes
+ *  an onset that is so many times as large. */
+#define TRIANGLES_ROUNDED 1.001
+
 /** What is left of triangles, by the lattice's numbers. */
 typedef struct triangles_integrity {
     const unsigned char *broken; /* [n_triangles] 1: nothing; NULL: all are whole */

@@ -246,7 +246,7 @@ static bool has_folded(const triangles *t, dem_index i, const double *x)
 {
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++)
         if (t->next[p] > i && t->last[p] > i && triangles_guard(t, p) > 0.0 &&
-            triangles_area(t, i, p, x) < 1.001 * TRIANGLES_GUARD_ONSET * triangles_rest_area(t, i, p))
+            triangles_area(t, i, p, x) < TRIANGLES_ROUNDED * TRIANGLES_GUARD_ONSET * triangles_rest_area(t, i, p))
             return true;
     return false;
 }

@@ -22,7 +22,6 @@
  *   others may happen soon. */
 #include "model/domain_model.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "base/reduce.h"
@@ -46,7 +45,6 @@ static dem_status join(dem_model *m, const ranks *r, const double *given)
     m->ranks = r;
     m->domain->n_surface_nodes = reduce_count(r, count_own_surface(m));
     TRY(model_find_scales(m, given));
-    CHECK(isfinite(m->omega_max), DEM_ERROR_MODEL, "stiffness over mass is too large to compute with");
     return m->touching != NULL ? touching_bodies_sum_up(m->touching, r, &m->lattice, m->n_bodies) : DEM_OK;
 }
 

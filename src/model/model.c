@@ -14,7 +14,6 @@
 #include "lattice/lattice.h"
 #include "lattice/mesh_edges.h"
 #include "model/model_rules.h"
-#include "model/model_scales.h"
 #include "obstacle/obstacle_input.h"
 #include "obstacle/obstacle_set.h"
 #include "obstacle/point_gap.h"
@@ -75,25 +74,6 @@ static dem_status compile_nodes(dem_model *m)
     return DEM_OK;
 }
 
-dem_status model_find_scales(dem_model *m, const double *given)
-{
-    model_scales s;
-    TRY(model_scales_find(&s, m->ranks,
-                          &(model_scales_input){.domain = m->domain,
-                                                .lattice = &m->lattice,
-                                                .springs = &m->springs,
-                                                .triangles = &m->triangles,
-                                                .couplings = &m->couplings,
-                                                .inverse_mass = m->inverse_mass,
-                                                .given = given}));
-    m->n_bodies = s.n_bodies;
-    m->edges_are_springs = s.edges_are_springs;
-    m->spacing = s.spacing;
-    m->omega_max = s.omega_max;
-    m->mass = s.mass;
-    return DEM_OK;
-}
-
 /* Appending to an empty lattice copies the caller's arrays. */
 static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
 {
@@ -118,7 +98,6 @@ static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_ob
 {
     TRY(reduce_status(m->ranks, compile_parts(m, lattice, list, n), 0.0));
     TRY(model_find_scales(m, NULL));
-    CHECK(isfinite(m->omega_max), DEM_ERROR_MODEL, "stiffness over mass is too large to compute with");
     return reduce_status(m->ranks, check_bodies(m), 0.0);
 }
 

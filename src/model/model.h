@@ -39,8 +39,11 @@ struct dem_model {
     double mass;      /* kg */
 };
 
-/** Finds the scales of a model, which has its ranks and of which all else is compiled. Collective.
- *  \param given  as model_scales_input has it  \return DEM_ERROR_MEMORY, on all ranks */
+/** Finds the scales of a model (model_scales.c): spacing, bound of the frequencies, mass, number of bodies, whether
+ *  edges are springs. It has its ranks, and all else of it is compiled. Collective.
+ *  \param given  [n_springs] what triangles give to springs, of which some may be beside the domain
+ *                (coupled_bound_given()); NULL: all are here
+ *  \return DEM_ERROR_MEMORY, DEM_ERROR_MODEL if a frequency is not finite; on all ranks */
 dem_status model_find_scales(dem_model *m, const double *given);
 
 /** The number of node i in the whole lattice, of which the model may have a part. */

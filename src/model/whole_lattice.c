@@ -73,7 +73,7 @@ static domain_shares shares_of(const whole_lattice *w, int n_ranks, const domain
 {
     domain_shares shares = {.n_ranks = n_ranks,
                             .owner = s->owner,
-                            .is_common = w->of.is_common,
+                            .is_common = w->is_common,
                             .counting = w->of.counting,
                             .n_rings = rings_for(&w->of, n_ranks, s, use),
                             .most_ghosts = INT64_MAX};
@@ -134,7 +134,6 @@ static dem_status look_for_common(whole_lattice *w, const domain_model_shares *s
     mesh_boundary boundary = {0};
     w->is_common = lattice_zeros(l->n_nodes, sizeof *w->is_common);
     CHECK_MEMORY(w->is_common);
-    w->of.is_common = w->is_common;
     if (shares->touching) TRY(mesh_boundary_create(&boundary, l, NULL));
     const dem_status status = find_common(&w->of, shares->touching ? &boundary : NULL, shares->is_near, w->is_common);
     mesh_boundary_free(&boundary);
@@ -144,7 +143,7 @@ static dem_status look_for_common(whole_lattice *w, const domain_model_shares *s
 dem_status whole_lattice_open(whole_lattice *out, const whole_parts *of, int n_ranks, const domain_model_shares *shares)
 {
     *out = (whole_lattice){.of = *of};
-    if (of->is_common == NULL) TRY(look_for_common(out, shares));
+    TRY(look_for_common(out, shares));
     TRY(find_lists(out, n_ranks, shares));
     return list_elements(out);
 }

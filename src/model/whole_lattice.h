@@ -18,15 +18,14 @@ typedef struct whole_parts {
     dem_index n[LATTICE_ITEMS]; /* nodes, springs and triangles of the whole */
     /* [nodes], [springs], [triangles] of the lattice: numbers in the whole, ascending; all NULL: it is the whole */
     const dem_index *number[LATTICE_ITEMS];
-    const unsigned char *is_common; /* [nodes] 1: all ranks integrate it; NULL: that is to be found */
-    const ranks *counting;          /* as domain_shares has it */
+    const ranks *counting; /* as domain_shares has it */
     bool has_obstacles;
     bool is_slack; /* whether no triangle has an area term or couplings */
 } whole_parts;
 
 typedef struct whole_lattice {
     whole_parts of;
-    unsigned char *is_common; /* [n_nodes] found here; else NULL */
+    unsigned char *is_common; /* [n_nodes] 1: all ranks integrate it */
     domain_shares shares;
     domain_lists lists;           /* of the nodes of all ranks */
     node_rows springs, triangles; /* at each node */
@@ -35,11 +34,11 @@ typedef struct whole_lattice {
 /** Those of a model, which has all of them.  \return which borrow them from it */
 whole_parts whole_parts_of(const dem_model *model);
 
-/** Finds all that. Borrows what the parts have, and the owners of the shares. A part of the whole needs, beside the own
- *  and common nodes of a rank, those that are as many rings away as there may be of ghosts and one more, with all
- *  springs and triangles between these; owners are then those of its nodes, and nothing else is asked of the shares but
- *  the rings. Collective, where ranks count together. Free with whole_lattice_close(), after a failure, too.
- *  \return DEM_ERROR_MEMORY */
+/** Finds all that. Borrows what the parts have, and the owners of the shares. A part of the whole needs the own and all
+ *  common nodes of a rank, those that are as many rings away from these as there may be of ghosts and one more, and all
+ *  springs and triangles between all of them; owners are then those of its nodes, bodies do not touch, and all that may
+ *  touch an obstacle is near. Collective, where ranks count together. Free with whole_lattice_close(), after a failure,
+ *  too.  \return DEM_ERROR_MEMORY */
 dem_status whole_lattice_open(whole_lattice *out, const whole_parts *of, int n_ranks,
                               const domain_model_shares *shares);
 void whole_lattice_close(whole_lattice *w);

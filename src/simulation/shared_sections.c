@@ -88,7 +88,10 @@ static dem_status lay_out(sharing *s)
     const int first = first_of(s, s->ranks->rank), end = first_of(s, s->ranks->rank + 1);
     size_t size = 0, room = 0;
     if (s->ranks->rank == 0) return DEM_OK;
-    for (int k = first; k < end; k++) size += s->notes[k].size, room += section_room(s->notes[k].size);
+    for (int k = first; k < end; k++) {
+        size += s->notes[k].size;
+        room += section_room(s->notes[k].size);
+    }
     s->bytes = malloc(size + 1);
     s->packed = malloc(room + 1);
     CHECK(s->bytes && s->packed, DEM_ERROR_MEMORY, "out of memory for %zu bytes of rank 0", size);

@@ -26,7 +26,6 @@ typedef struct part {
     dem_index n[LATTICE_ITEMS];
     dem_index *number[LATTICE_ITEMS], *local; /* in the whole, and of its nodes in the part */
     int32_t *owner;
-    unsigned char *is_common;
 } part;
 
 static void free_part(part *p)
@@ -35,7 +34,6 @@ static void free_part(part *p)
     for (int k = 0; k < LATTICE_ITEMS; k++) free(p->number[k]);
     free(p->local);
     free(p->owner);
-    free(p->is_common);
 }
 
 /* Own and common nodes, and those so many rings about them. */
@@ -75,11 +73,9 @@ static part make_part(const dem_lattice *l, const int32_t *owner, const unsigned
     list(&p, LATTICE_SPRINGS, l->ends, 2, l->n_springs, marks);
     list(&p, LATTICE_TRIANGLES, l->triangles, 3, l->n_triangles, marks);
     p.owner = malloc(((size_t)p.n[LATTICE_NODES] + 1) * sizeof *p.owner);
-    p.is_common = malloc((size_t)p.n[LATTICE_NODES] + 1);
     for (dem_index k = 0; k < p.n[LATTICE_NODES]; k++) {
         p.local[p.number[LATTICE_NODES][k]] = k;
         p.owner[k] = owner[p.number[LATTICE_NODES][k]];
-        p.is_common[k] = is_common[p.number[LATTICE_NODES][k]];
     }
     lattice_cut cut = {.node = p.local};
     memcpy(cut.n, p.n, sizeof cut.n);
@@ -151,14 +147,13 @@ static const char *compare(const domain_cut *a, const domain_cut *b)
 static const char *cut_part(const ranks *r, const shared *s, const whole_lattice *whole, const domain_cut *expected)
 {
     const int most = s->shares.n_rings > 0 ? s->shares.n_rings : s->shares.use.most;
-    part p = make_part(whole->of.lattice, s->owner, whole->of.is_common, r->rank, most + 1);
+    part p = make_part(whole->of.lattice, s->owner, whole->is_common, r->rank, most + 1);
     rigid_bodies rigid = {0};
     whole_lattice w = {.of = whole->of};
     domain_cut c = {0};
     whole_parts of = whole->of;
     of.lattice = &p.lattice;
     of.rigid = &rigid;
-    of.is_common = p.is_common;
     of.counting = r;
     for (int k = 0; k < LATTICE_ITEMS; k++) of.number[k] = p.number[k];
     domain_model_shares shares = s->shares;
@@ -236,8 +231,6 @@ TEST(common_nodes_and_rigid_bodies_are_those_of_the_whole)
     dem_lattice_move(&other, 0.2, (const double[2]){0.12, 0.01});
     assert_ok(dem_lattice_append(&l, &other));
     CLEANUP(free_model) dem_model *whole = support_model(&l, &floor, 1);
-    CLEANUP(free_memory) unsigned char *is_near = calloc((size_t)l.n_nodes, 1);
-    for (dem_index i = 0; i < l.n_nodes; i++) is_near[i] = l.x[2 * i + 1] < -0.055;
-    check(whole, (domain_model_shares){.n_rings = 1, .is_near = is_near, .touching = true});
-    check(whole, (domain_model_shares){.n_rings = 2, .is_near = is_near, .touching = true});
+    check(whole, (domain_model_shares){.n_rings = 1});
+    check(whole, (domain_model_shares){.n_rings = 2});
 }
