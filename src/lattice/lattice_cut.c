@@ -20,7 +20,7 @@ static dem_status copy(dem_lattice *out, const dem_lattice *whole, const lattice
 
 static void renumber(dem_index *corner, dem_index n, const dem_index *node)
 {
-    for (dem_index k = 0; k < n; k++) corner[k] = node[corner[k]];
+    for (dem_index k = 0; k < n && node != NULL; k++) corner[k] = node[corner[k]];
 }
 
 dem_status lattice_cut_create(dem_lattice *out, const dem_lattice *whole, const lattice_cut *cut)

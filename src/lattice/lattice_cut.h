@@ -9,7 +9,7 @@
 typedef struct lattice_cut {
     dem_index n[LATTICE_ITEMS];
     const dem_index *numbers[LATTICE_ITEMS]; /* [n] in the whole, ascending; those of corners are among the nodes */
-    const dem_index *node;                   /* [nodes of the whole] their numbers in the part */
+    const dem_index *node; /* [nodes of the whole] their numbers in the part; NULL: corners keep those of the whole */
 } lattice_cut;
 
 /** Copies it. Node numbers of the whole are known to be valid. Free with dem_lattice_free().

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Boundary, stresses, and what triangles give to springs are found in the lattice about the domain, as a side of a
- * triangle of the domain may have its other triangle outside of it; all else in the lattice of the domain, as any model
- * is compiled. */
+ * triangle of the domain may have its other triangle outside of it, and stresses when they are first asked for, unless
+ * they decide what breaks; all else in the lattice of the domain, as any model is compiled. */
 #include "model/domain_compile.h"
 
 #include <stdlib.h>
@@ -10,6 +10,7 @@
 #include "lattice/lattice.h"
 #include "model/breakable_nodes.h"
 #include "model/coupled_bound.h"
+#include "model/domain_stress.h"
 #include "obstacle/obstacle_set.h"
 
 /* The numbers that nodes and triangles about the domain have in it; -1: they are beside it. */
@@ -82,46 +83,13 @@ static dem_status compile_boundary(const domain_cut *c, const numbers *q)
     return status;
 }
 
-/* The rows of nodes that are integrated, of which common ones may decide what breaks; those of ghosts are empty.
- * Springs about the domain are those of the domain. */
-static dem_status cut_stress(dem_model *m, const stress_map *around, const dem_index *place)
-{
-    const domain *d = m->domain;
-    const stress_rows *from = around->rows;
-    dem_index n = 0;
-    for (dem_index i = 0; i < d->n_nodes; i++)
-        if (!d->is_ghost[i]) n += from->row[place[i] + 1] - from->row[place[i]];
-    TRY(stress_create(&m->stress, d->n_nodes, n, &m->couplings));
-    stress_rows *to = m->stress.rows;
-    n = 0;
-    for (dem_index i = 0; i < d->n_nodes; i++) {
-        to->volume[i] = from->volume[place[i]];
-        for (dem_index p = from->row[place[i]]; !d->is_ghost[i] && p < from->row[place[i] + 1]; p++) {
-            to->spring[n] = from->spring[p];
-            to->share[n++] = from->share[p];
-        }
-        to->row[i + 1] = (int32_t)n;
-    }
-    return DEM_OK;
-}
-
-static dem_status compile_stress(const domain_cut *c, const springs *all)
-{
-    stress_map around = {0};
-    dem_status status = stress_compile(&around, &c->around, all, &c->model->couplings);
-    if (status == DEM_OK) status = stress_prepare(&around);
-    if (status == DEM_OK) status = cut_stress(c->model, &around, c->place);
-    stress_free(&around);
-    return status;
-}
-
 /* What springs have of the triangles at them, of which one may be beside the domain. */
-static dem_status compile_shares(domain_cut *c)
+static dem_status compile_given(domain_cut *c)
 {
     springs all = {0};
+    if (c->around.coupling == NULL) return DEM_OK;
     TRY(springs_compile(&all, &c->around));
-    dem_status status = compile_stress(c, &all);
-    if (status == DEM_OK && c->around.coupling != NULL) status = coupled_bound_given(&c->given, &c->around, &all);
+    const dem_status status = coupled_bound_given(&c->given, &c->around, &all);
     springs_free(&all);
     return status;
 }
@@ -162,7 +130,8 @@ static dem_status compile_cut(domain_cut *c)
     numbers q = {0};
     dem_status status = find_numbers(&q, c);
     if (status == DEM_OK) status = compile_boundary(c, &q);
-    if (status == DEM_OK) status = compile_shares(c);
+    if (status == DEM_OK) status = compile_given(c);
+    if (status == DEM_OK) status = domain_stress_create(c, q.node, q.triangle);
     if (status == DEM_OK) status = take_lattice(c, &q);
     free_numbers(&q);
     return status == DEM_OK ? compile_nodes(c->model) : status;
@@ -195,5 +164,6 @@ dem_status domain_compile(domain_cut *c, const dem_obstacle *obstacles, dem_inde
     TRY(compile_cut(c));
     TRY(compile_elements(m));
     TRY(compile_surface(m, touching));
-    return obstacles_compile(&m->obstacles, obstacles, n_obstacles);
+    TRY(obstacles_compile(&m->obstacles, obstacles, n_obstacles));
+    return breakable_lattice(&m->lattice) ? stress_prepare(&m->stress) : DEM_OK;
 }

@@ -129,16 +129,37 @@ static void free_arrays(stress_rows *r)
     r->share = NULL;
 }
 
-/* Holders and counters are needed only while the shares are found. */
-static dem_status make_rows(void *self)
+static void free_volumes(stress_rows *r)
 {
-    draft d = {.rows = self};
+    free(r->volume);
+    r->volume = NULL;
+}
+
+/* Holders and counters are needed only while the shares are found. */
+static dem_status make_of_lattice(stress_rows *r)
+{
+    draft d = {.rows = r};
     const dem_status status = fill(&d);
     spring_holders_free(&d.holders);
     free(d.next);
     free(d.last);
-    if (status != DEM_OK) free_arrays(d.rows);
+    if (status != DEM_OK) free_arrays(r);
     return status;
+}
+
+static dem_status make_by_maker(stress_rows *r)
+{
+    const dem_status status = r->maker.make(r->maker.self, r);
+    if (status == DEM_OK) return DEM_OK;
+    free_arrays(r);
+    free_volumes(r);
+    return status;
+}
+
+static dem_status make_rows(void *self)
+{
+    stress_rows *r = self;
+    return r->maker.make != NULL ? make_by_maker(r) : make_of_lattice(r);
 }
 
 dem_status stress_prepare(const stress_map *map)
@@ -154,7 +175,10 @@ void stress_forget(const stress_map *map)
 
 const double *stress_volumes(const stress_map *map)
 {
-    return on_demand_make(&map->rows->weighed, make_volumes, map->rows) == DEM_OK ? map->rows->volume : NULL;
+    stress_rows *r = map->rows;
+    const dem_status status =
+        r->maker.make != NULL ? stress_prepare(map) : on_demand_make(&r->weighed, make_volumes, r);
+    return status == DEM_OK ? r->volume : NULL;
 }
 
 static dem_status create_locks(stress_rows *r)
@@ -179,26 +203,11 @@ dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const spr
     return status;
 }
 
-static dem_status allocate(stress_map *map, dem_index n_nodes, dem_index n_shares)
+dem_status stress_create(stress_map *out, const stress_maker *maker, const couplings *c)
 {
-    stress_rows *r = map->rows;
-    r->volume = lattice_zeros(n_nodes, sizeof *r->volume);
-    r->row = lattice_zeros(n_nodes + 1, sizeof *r->row);
-    CHECK(r->volume && r->row, DEM_ERROR_MEMORY, "out of memory for the stresses of %lld nodes", (long long)n_nodes);
-    return allocate_shares(r, n_nodes, n_shares);
-}
-
-dem_status stress_create(stress_map *out, dem_index n_nodes, dem_index n_shares, const couplings *c)
-{
-    stress_map map;
-    TRY(stress_compile(&map, NULL, NULL, c));
-    map.rows->made.is_made = map.rows->weighed.is_made = true;
-    const dem_status status = allocate(&map, n_nodes, n_shares);
-    if (status == DEM_OK)
-        *out = map;
-    else
-        stress_free(&map);
-    return status;
+    TRY(stress_compile(out, NULL, NULL, c));
+    out->rows->maker = *maker;
+    return DEM_OK;
 }
 
 void stress_free(stress_map *map)
@@ -207,7 +216,8 @@ void stress_free(stress_map *map)
         on_demand_destroy(&map->rows->made);
         on_demand_destroy(&map->rows->weighed);
         free_arrays(map->rows);
-        free(map->rows->volume);
+        free_volumes(map->rows);
+        if (map->rows->maker.make != NULL) map->rows->maker.end(map->rows->maker.self);
         free(map->rows);
     }
     *map = (stress_map){0};

@@ -10,16 +10,26 @@
 #include "elastic/springs.h"
 #include "elastic/triangles.h"
 
+typedef struct stress_rows stress_rows;
+
+/** What makes rows and volumes in another way than from all of a lattice, and is ended with them. */
+typedef struct stress_maker {
+    void *self;
+    dem_status (*make)(void *self, stress_rows *rows); /* volume, row, spring and share, to be freed with free() */
+    void (*end)(void *self);
+} stress_maker;
+
 /** Which springs make up the stress of which node. Rows and volumes are made when they are first asked for. */
-typedef struct stress_rows {
+struct stress_rows {
     on_demand made, weighed;    /* rows, for which there have to be volumes; volumes */
+    stress_maker maker;         /* of both; without `make` there is none, but */
     const dem_lattice *lattice; /* borrowed, as springs are */
     const springs *springs;
     double *volume;  /* [n_nodes] m^3, a third of the triangles at rest; 0 of a node in no triangle, without stress */
     int32_t *row;    /* [n_nodes + 1] */
     int32_t *spring; /* slots row[i] .. row[i + 1] - 1: springs of the lattice */
     double *share;   /* of their r x f, over the node's volume, 1/m^3 */
-} stress_rows;
+};
 
 typedef struct stress_map {
     stress_rows *rows;
@@ -30,17 +40,17 @@ typedef struct stress_map {
 dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const springs *s, const couplings *c);
 void stress_free(stress_map *map);
 
-/** A map of so many nodes with room for so many shares, which the caller fills in; the rows are made then.
- *  \return DEM_ERROR_MEMORY. Free with stress_free(). */
-dem_status stress_create(stress_map *out, dem_index n_nodes, dem_index n_shares, const couplings *c);
+/** A map whose rows are made in another way.  \return DEM_ERROR_MEMORY; then the maker is not ended. Free with
+ *  stress_free(). */
+dem_status stress_create(stress_map *out, const stress_maker *maker, const couplings *c);
 
 /** Makes the rows unless they are there; from several threads at once, too.  \return DEM_ERROR_MEMORY;
  *  DEM_ERROR_MODEL for 2^31 shares */
 dem_status stress_prepare(const stress_map *map);
 
-/** Frees the rows until they are asked for again; while nobody else looks at them. Not of a map that was created with
- *  room for them. */
+/** Frees the rows until they are asked for again; while nobody else looks at them. Not those of a maker. */
 void stress_forget(const stress_map *map);
+
 /** The volumes alone, made likewise; NULL without memory. */
 const double *stress_volumes(const stress_map *map);
 

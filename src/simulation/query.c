@@ -391,13 +391,19 @@ dem_status dem_simulation_crack_energy(const dem_simulation *s, double *energy)
     return crack_energy(&s->model->lattice, elements, energy);
 }
 
+/* What one rank has no memory for none goes on with. */
+static dem_status prepare_stress(const dem_simulation *s)
+{
+    return reduce_status(s->model->ranks, stress_prepare(&s->model->stress), 0.0);
+}
+
 dem_status dem_simulation_stress(const dem_simulation *s, double *stress)
 {
     const element_state *elements;
     TRY(check_pointers("dem_simulation_stress", s, stress));
     if (s->leads != NULL) return ask_field(s, SHARED_FIELD_STRESS, stress);
     TRY(find_elements(s, &elements));
-    TRY(stress_prepare(&s->model->stress));
+    TRY(prepare_stress(s));
     const double *x = all_seen_of(s);
     const double area_min = s->measures->has_survey ? s->survey->strain.area_min : 0.0;
     s->measures->has_stress = stress_field_take(s->field, elements, x, area_min, stress);
@@ -411,7 +417,7 @@ dem_status dem_simulation_stress_at(const dem_simulation *s, dem_index node, dou
     const domain *d = s->model->domain;
     double own[3] = {0};
     TRY(status_check_number("node", node, d != NULL ? d->n_whole : s->model->lattice.n_nodes));
-    TRY(stress_prepare(&s->model->stress));
+    TRY(prepare_stress(s));
     const double *x = all_seen_of(s);
     const dem_index i = domain_node(d, node);
     const bool is_here = i >= 0 && domain_owns(d, i);

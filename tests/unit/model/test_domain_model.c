@@ -68,6 +68,7 @@ static void assert_same_stresses(const dem_model *m, const dem_model *whole, con
 {
     const domain *d = m->domain;
     CLEANUP(free_memory) double *own = malloc(2 * (size_t)d->n_nodes * sizeof *own);
+    assert_ok(stress_prepare(&m->stress));
     for (dem_index i = 0; i < d->n_nodes; i++) memcpy(own + 2 * i, x + 2 * d->number[i], 2 * sizeof *x);
     for (dem_index i = 0; i < d->n_nodes; i++) {
         double here[3], there[3];
