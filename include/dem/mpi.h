@@ -86,11 +86,12 @@ DEM_API dem_status dem_model_create_mpi_for(dem_model **out, const dem_lattice *
  *  of one process that has such a lattice.
  *  For one elastic body of triangles that does not break and does not touch itself: others are refused. Numbers of
  *  nodes, springs and triangles in messages about a slab are its own.
- *  \param slab     of this rank, which may be freed afterwards
+ *  \param slab     of this rank. It is taken over, so that nobody has it beside the model: it is empty afterwards,
+ *                  whatever is returned
  *  \param options  as dem_model_create_mpi_for() has them; NULL: any without contact of bodies
  *  \return as dem_model_create_mpi_for(); DEM_ERROR_ARGUMENT also if slabs do not follow each other or do not have the
  *  same arrays; DEM_ERROR_MODEL also for what is not supported, which the message names */
-DEM_API dem_status dem_model_create_mpi_slab(dem_model **out, const dem_slab *slab, const dem_obstacle *obstacles,
+DEM_API dem_status dem_model_create_mpi_slab(dem_model **out, dem_slab *slab, const dem_obstacle *obstacles,
                                              dem_index n_obstacles, const dem_options *options, MPI_Comm communicator);
 
 /** The same for Fortran, where a communicator is an integer: docs/fortran.md has the first one's interface. */
@@ -99,7 +100,7 @@ DEM_API dem_status dem_model_create_mpi_f(dem_model **out, const dem_lattice *la
 DEM_API dem_status dem_model_create_mpi_for_f(dem_model **out, const dem_lattice *lattice,
                                               const dem_obstacle *obstacles, dem_index n_obstacles,
                                               const dem_options *options, MPI_Fint communicator);
-DEM_API dem_status dem_model_create_mpi_slab_f(dem_model **out, const dem_slab *slab, const dem_obstacle *obstacles,
+DEM_API dem_status dem_model_create_mpi_slab_f(dem_model **out, dem_slab *slab, const dem_obstacle *obstacles,
                                                dem_index n_obstacles, const dem_options *options,
                                                MPI_Fint communicator);
 

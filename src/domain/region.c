@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rows come as they are asked for, each once, and are put in the order of the whole when all are there. Springs and
- * triangles come with their lowest nodes; those that go beyond the last ring are left out. */
+/* Rows of other ranks come as they are asked for, each once, and are put in the order of the whole when all are there.
+ * Springs and triangles come with their lowest nodes; those that go beyond the last ring are left out. What the rank
+ * owns has the order of the whole in its slab, and nothing of others between: it stays in the arrays of the slab, which
+ * lose what others own and get what has come, one array after the other, so that nothing of the slab is there twice. */
 #include "domain/region.h"
 
+#include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/grow.h"
 #include "base/reduce.h"
@@ -19,12 +23,12 @@ typedef struct numbers {
 
 /* A region in the making. Corners are numbers of the whole until it is in order. */
 typedef struct draft {
-    const slab_rows *rows;
-    bool has_own;      /* whether own nodes are known, or about to be */
+    slab_rows *rows;
+    bool has_own;      /* whether all own nodes are known, which then are in no list */
     numbers known;     /* nodes that have been asked for, ascending */
     numbers next;      /* nodes next to these, as they have come */
     numbers wanted;    /* nodes to be asked for, ascending */
-    dem_lattice found; /* in the order in which they have come */
+    dem_lattice found; /* of other ranks, in the order in which it has come */
     dem_index capacity[LATTICE_ITEMS];
     numbers number[LATTICE_ITEMS];
     bundle *asking, *asked, *giving, *given; /* [ranks] */
@@ -35,6 +39,18 @@ static bool add(numbers *to, dem_index number)
     if (!grow_array((void **)&to->list, &to->capacity, to->n + 1, sizeof *to->list)) return false;
     to->list[to->n++] = number;
     return true;
+}
+
+/* The number of the first node of this rank, and the one behind its last. */
+static const dem_index *own_of(const draft *d)
+{
+    return d->rows->first + d->rows->ranks->rank;
+}
+
+static bool is_own(const draft *d, dem_index number)
+{
+    const dem_index *own = own_of(d);
+    return number >= own[0] && number < own[1];
 }
 
 static dem_status lacks_memory(void)
@@ -50,7 +66,15 @@ static dem_index *count_of(dem_lattice *l, lattice_items of)
     return counts[of];
 }
 
-/* Makes room for one more in the arrays that are in rows, and in those of corners. */
+/* Whether there is array k of lattice_arrays: those that are in rows, and those of corners. */
+static bool has_array(const draft *d, int k)
+{
+    const size_t offset = lattice_arrays[k].offset;
+    return offset == offsetof(dem_lattice, ends) || offset == offsetof(dem_lattice, triangles) ||
+           slab_rows_has(d->rows, k);
+}
+
+/* Makes room for one more in all of them. */
 static bool make_room(draft *d, lattice_items of)
 {
     dem_index room = d->capacity[of];
@@ -58,10 +82,8 @@ static bool make_room(draft *d, lattice_items of)
     for (int k = 0; k < LATTICE_ARRAYS && needed > d->capacity[of]; k++) {
         const lattice_array *a = &lattice_arrays[k];
         void *items = lattice_array_of(&d->found, a);
-        const bool is_corners =
-            a->offset == offsetof(dem_lattice, ends) || a->offset == offsetof(dem_lattice, triangles);
         room = d->capacity[of];
-        if (a->of != of || (!is_corners && !slab_rows_has(d->rows, k))) continue;
+        if (a->of != of || !has_array(d, k)) continue;
         if (!grow_array(&items, &room, needed, a->size)) return false;
         lattice_array_put(&d->found, a, items);
     }
@@ -89,14 +111,16 @@ static bool take_owned(draft *d, lattice_items of, dem_index *corner, int arity,
     return add(&d->number[of], number);
 }
 
-static bool take_next(draft *d, dem_index n, const bundle *from, dem_index *at)
+/* As slab_rows_pack_next() has written it. */
+static bool take_next(draft *d, const bundle *from, dem_index *at)
 {
     bool has_room = true;
+    dem_index n;
+    bundle_take(from, at, &n, sizeof n);
     for (dem_index k = 0; has_room && k < n; k++) {
         dem_index number;
         bundle_take(from, at, &number, sizeof number);
-        const bool is_own = slab_rows_owner(d->rows, number) == d->rows->ranks->rank;
-        has_room = (d->has_own && is_own) || add(&d->next, number);
+        has_room = (d->has_own && is_own(d, number)) || add(&d->next, number);
     }
     return has_room;
 }
@@ -104,17 +128,17 @@ static bool take_next(draft *d, dem_index n, const bundle *from, dem_index *at)
 /* As slab_rows_pack() has written it. */
 static bool take_row(draft *d, const bundle *from, dem_index *at)
 {
-    dem_index head[4];
+    dem_index head[3];
     dem_lattice *l = &d->found;
     bundle_take(from, at, head, sizeof head);
-    if (!take_next(d, head[1], from, at) || !make_room(d, LATTICE_NODES)) return false;
+    if (!take_next(d, from, at) || !make_room(d, LATTICE_NODES)) return false;
     take_items(d, LATTICE_NODES, from, at);
     l->n_nodes++;
     bool has_room = add(&d->number[LATTICE_NODES], head[0]);
-    for (dem_index k = 0; has_room && k < head[2]; k++)
+    for (dem_index k = 0; has_room && k < head[1]; k++)
         has_room =
             make_room(d, LATTICE_SPRINGS) && take_owned(d, LATTICE_SPRINGS, l->ends + 2 * l->n_springs, 2, from, at);
-    for (dem_index k = 0; has_room && k < head[3]; k++)
+    for (dem_index k = 0; has_room && k < head[2]; k++)
         has_room = make_room(d, LATTICE_TRIANGLES) &&
                    take_owned(d, LATTICE_TRIANGLES, l->triangles + 3 * l->n_triangles, 3, from, at);
     return has_room;
@@ -129,13 +153,25 @@ static dem_status take_rows(draft *d, const bundle *from)
 
 /* ---- rounds ---- */
 
+/* Of an own node only what is next to it is looked for. */
+static bool look_about(draft *d, dem_index number, bundle *next)
+{
+    dem_index at = 0;
+    next->n = 0;
+    return slab_rows_pack_next(d->rows, number, next) && take_next(d, next, &at);
+}
+
 static dem_status ask(draft *d)
 {
-    for (dem_index k = 0; k < d->wanted.n; k++) {
+    bundle next = {0};
+    bool has_room = true;
+    for (dem_index k = 0; has_room && k < d->wanted.n; k++) {
         const dem_index number = d->wanted.list[k];
-        if (!bundle_add(&d->asking[slab_rows_owner(d->rows, number)], &number, sizeof number)) return lacks_memory();
+        has_room = is_own(d, number) ? look_about(d, number, &next)
+                                     : bundle_add(&d->asking[slab_rows_owner(d->rows, number)], &number, sizeof number);
     }
-    return DEM_OK;
+    bundles_free(&next, 1);
+    return has_room ? DEM_OK : lacks_memory();
 }
 
 static dem_status answer(const draft *d, const bundle *questions, bundle *answers)
@@ -150,16 +186,13 @@ static dem_status answer(const draft *d, const bundle *questions, bundle *answer
 
 static dem_status answer_all(draft *d)
 {
-    const int rank = d->rows->ranks->rank;
-    for (int k = 0; k < d->rows->ranks->size; k++)
-        TRY(answer(d, k == rank ? &d->asking[k] : &d->asked[k], &d->giving[k]));
+    for (int k = 0; k < d->rows->ranks->size; k++) TRY(answer(d, &d->asked[k], &d->giving[k]));
     return DEM_OK;
 }
 
 static dem_status take_all(draft *d)
 {
-    const int rank = d->rows->ranks->rank;
-    for (int k = 0; k < d->rows->ranks->size; k++) TRY(take_rows(d, k == rank ? &d->giving[k] : &d->given[k]));
+    for (int k = 0; k < d->rows->ranks->size; k++) TRY(take_rows(d, &d->given[k]));
     return DEM_OK;
 }
 
@@ -202,7 +235,8 @@ static dem_status want(draft *d, numbers *from)
     from->n = sorted_make(from->list, from->n);
     for (dem_index q = 0; q < from->n; q++) {
         while (k < d->known.n && d->known.list[k] < from->list[q]) k++;
-        const bool is_known = k < d->known.n && d->known.list[k] == from->list[q];
+        const bool is_known =
+            (k < d->known.n && d->known.list[k] == from->list[q]) || (d->has_own && is_own(d, from->list[q]));
         if (!is_known && !add(&d->wanted, from->list[q])) return lacks_memory();
     }
     from->n = 0;
@@ -227,8 +261,8 @@ static dem_status fetch_rings(draft *d, int n)
 static dem_status list_touching(draft *d)
 {
     const slab_rows *s = d->rows;
-    for (dem_index i = 0; i < s->lattice.n_nodes; i++)
-        if (slab_rows_owns(s, i) && (s->lattice.flags[i] & DEM_NODE_CONTACT) != 0 &&
+    for (dem_index i = 0; i < s->lattice->n_nodes; i++)
+        if (slab_rows_owns(s, i) && (s->lattice->flags[i] & DEM_NODE_CONTACT) != 0 &&
             !add(&d->wanted, s->first_node + i))
             return lacks_memory();
     return DEM_OK;
@@ -279,38 +313,25 @@ static dem_status fetch_common(draft *d, int n_rings)
     return status == DEM_OK ? fetch_rings(d, n_rings) : status;
 }
 
-static dem_status list_own(draft *d)
+static void forget_own(numbers *list, const draft *d)
 {
-    const dem_index *own = d->rows->first + d->rows->ranks->rank;
-    numbers list = {0};
-    dem_status status = DEM_OK;
-    for (dem_index number = own[0]; status == DEM_OK && number < own[1]; number++)
-        if (!add(&list, number)) status = lacks_memory();
-    if (status == DEM_OK) status = want(d, &list);
-    free(list.list);
-    return status;
+    dem_index kept = 0;
+    for (dem_index k = 0; k < list->n; k++)
+        if (!is_own(d, list->list[k])) list->list[kept++] = list->list[k];
+    list->n = kept;
 }
 
-/* Row by row, without a message: there are many. */
+/* All that is next to own nodes, without a message: there are many. */
 static dem_status take_own(draft *d)
 {
-    bundle row = {0};
-    dem_status status = DEM_OK;
+    const dem_index *own = own_of(d);
+    bundle next = {0};
+    bool has_room = true;
     d->has_own = true;
-    for (dem_index k = 0; status == DEM_OK && k < d->wanted.n; k++) {
-        row.n = 0;
-        status = slab_rows_pack(d->rows, d->wanted.list[k], &row) ? take_rows(d, &row) : lacks_memory();
-    }
-    bundles_free(&row, 1);
-    return status;
-}
-
-static dem_status fetch_own(draft *d)
-{
-    dem_status status = list_own(d);
-    if (status == DEM_OK) status = take_own(d);
-    if (status == DEM_OK) status = merge_known(d);
-    return reduce_status(d->rows->ranks, status, 0.0);
+    forget_own(&d->known, d);
+    for (dem_index number = own[0]; has_room && number < own[1]; number++) has_room = look_about(d, number, &next);
+    bundles_free(&next, 1);
+    return has_room ? DEM_OK : lacks_memory();
 }
 
 /* ---- in the order of the whole ---- */
@@ -325,87 +346,175 @@ static int compare(const void *a, const void *b)
     return (p->number > q->number) - (p->number < q->number);
 }
 
-/* What of the draft is in the region. */
+/* What of nodes, springs or triangles is in the region. */
 typedef struct order {
-    arrival *list;
-    dem_index n[LATTICE_ITEMS], *at[LATTICE_ITEMS]; /* [n] places in the draft, by numbers of the whole */
-    dem_index *node;                                /* [nodes] the number in the region of each in the draft */
+    dem_index n_own, *own; /* [n_own] what this rank owns: places in the slab, ascending */
+    dem_index n, *at;      /* [n] what others own: places in the draft, by numbers of the whole, */
+    dem_index n_before;    /* of which so many are below those of what this rank owns */
 } order;
 
-/* Corners become places in the draft; -1: not in the region. */
-static void find_corners(const draft *d, const order *o, dem_index *corner, dem_index n)
+static int arity_of(lattice_items of)
 {
-    for (dem_index k = 0; k < n; k++) {
-        const dem_index place = sorted_find(d->known.list, d->known.n, corner[k]);
-        corner[k] = place >= 0 ? o->at[LATTICE_NODES][place] : -1;
+    static const int arity[LATTICE_ITEMS] = {[LATTICE_SPRINGS] = 2, [LATTICE_TRIANGLES] = 3};
+    return arity[of];
+}
+
+static dem_index *corners_of(const dem_lattice *l, lattice_items of)
+{
+    return of == LATTICE_SPRINGS ? l->ends : l->triangles;
+}
+
+/* \param n_before  nodes of others before own ones
+ * \return the number in the region of a node of the whole; -1: it is not there */
+static dem_index node_in_region(const draft *d, dem_index n_before, dem_index number)
+{
+    const dem_index *own = own_of(d);
+    if (is_own(d, number)) return n_before + number - own[0];
+    const dem_index k = sorted_find(d->known.list, d->known.n, number);
+    return k < n_before ? k : k + own[1] - own[0];
+}
+
+/* \param first  the number in the whole of node 0 of a lattice */
+static void replace_corners(const draft *d, dem_index first, const dem_lattice *l)
+{
+    const dem_index n_before = sorted_first(d->known.list, d->known.n, own_of(d)[0]);
+    for (int of = LATTICE_SPRINGS; of < LATTICE_ITEMS; of++) {
+        const lattice_items items = (lattice_items)of;
+        dem_index *corner = corners_of(l, items);
+        for (dem_index k = 0; k < arity_of(items) * lattice_count(l, items); k++)
+            corner[k] = node_in_region(d, n_before, first + corner[k]);
     }
 }
 
-static bool is_entire(const dem_index *corner, int arity)
+/* Whether all corners of an item are in the region. */
+static bool is_entire(const dem_lattice *l, lattice_items of, dem_index k)
 {
+    const int arity = arity_of(of);
     bool entire = true;
-    for (int c = 0; c < arity; c++) entire = entire && corner[c] >= 0;
+    for (int c = 0; c < arity; c++) entire = entire && corners_of(l, of)[arity * k + c] >= 0;
     return entire;
 }
 
-/* Those that are in the region, by number.  \param corner  [n][arity] NULL: all are */
-static void sort(order *o, const draft *d, lattice_items of, const dem_index *corner, int arity)
+/* The number in the whole of item k of the slab; -1: another rank owns it. */
+static dem_index number_in_slab(const slab_rows *s, lattice_items of, dem_index k)
 {
-    dem_index n = 0;
-    for (dem_index k = 0; k < d->number[of].n; k++)
-        if (corner == NULL || is_entire(corner + arity * k, arity)) o->list[n++] = (arrival){d->number[of].list[k], k};
-    qsort(o->list, (size_t)n, sizeof *o->list, compare);
-    for (dem_index k = 0; k < n; k++) o->at[of][k] = o->list[k].at;
-    o->n[of] = n;
+    if (of != LATTICE_NODES) return s->number[of][k];
+    return slab_rows_owns(s, k) ? s->first_node + k : -1;
 }
 
-static dem_status allocate(order *o, region *g, const draft *d)
+static dem_status list_owned(order *o, const slab_rows *s, lattice_items of)
 {
-    dem_index most = 0;
-    bool has_room = true;
-    for (int of = 0; of < LATTICE_ITEMS; of++) {
-        const size_t n = (size_t)d->number[of].n + 1;
-        most = d->number[of].n > most ? d->number[of].n : most;
-        o->at[of] = malloc(n * sizeof *o->at[of]);
-        g->number[of] = malloc(n * sizeof *g->number[of]);
-        has_room = has_room && o->at[of] != NULL && g->number[of] != NULL;
+    const dem_index n = lattice_count(s->lattice, of);
+    o->own = malloc(((size_t)n + 1) * sizeof *o->own);
+    if (o->own == NULL) return lacks_memory();
+    for (dem_index k = 0; k < n; k++)
+        if (number_in_slab(s, of, k) >= 0 && is_entire(s->lattice, of, k)) o->own[o->n_own++] = k;
+    return DEM_OK;
+}
+
+static dem_status list_others(order *o, const draft *d, lattice_items of)
+{
+    const numbers *number = &d->number[of];
+    const dem_index first = o->n_own > 0 ? number_in_slab(d->rows, of, o->own[0]) : INT64_MAX;
+    arrival *list = malloc(((size_t)number->n + 1) * sizeof *list);
+    o->at = malloc(((size_t)number->n + 1) * sizeof *o->at);
+    const bool has_room = list != NULL && o->at != NULL;
+    for (dem_index k = 0; has_room && k < number->n; k++)
+        if (is_entire(&d->found, of, k)) list[o->n++] = (arrival){number->list[k], k};
+    if (has_room) qsort(list, (size_t)o->n, sizeof *list, compare);
+    for (dem_index k = 0; has_room && k < o->n; k++) {
+        o->at[k] = list[k].at;
+        o->n_before += list[k].number < first;
     }
-    o->list = malloc(((size_t)most + 1) * sizeof *o->list);
-    o->node = malloc(((size_t)d->number[LATTICE_NODES].n + 1) * sizeof *o->node);
-    return has_room && o->list != NULL && o->node != NULL ? DEM_OK : lacks_memory();
+    free(list);
+    return has_room ? DEM_OK : lacks_memory();
 }
 
-static dem_status put_in_order(region *g, order *o, draft *d)
+/* The place in the region of item k of those that others own. */
+static dem_index place_of(const order *o, dem_index k)
 {
-    dem_lattice *l = &d->found;
-    TRY(allocate(o, g, d));
-    sort(o, d, LATTICE_NODES, NULL, 0);
-    for (dem_index k = 0; k < o->n[LATTICE_NODES]; k++) o->node[o->at[LATTICE_NODES][k]] = k;
-    find_corners(d, o, l->ends, 2 * l->n_springs);
-    find_corners(d, o, l->triangles, 3 * l->n_triangles);
-    sort(o, d, LATTICE_SPRINGS, l->ends, 2);
-    sort(o, d, LATTICE_TRIANGLES, l->triangles, 3);
-    for (int of = 0; of < LATTICE_ITEMS; of++)
-        for (dem_index k = 0; k < o->n[of]; k++) g->number[of][k] = d->number[of].list[o->at[of][k]];
-    const lattice_cut cut = {.n = {o->n[LATTICE_NODES], o->n[LATTICE_SPRINGS], o->n[LATTICE_TRIANGLES]},
-                             .numbers = {o->at[LATTICE_NODES], o->at[LATTICE_SPRINGS], o->at[LATTICE_TRIANGLES]},
-                             .node = o->node};
-    return lattice_cut_create(&g->lattice, l, &cut);
+    return k < o->n_before ? k : k + o->n_own;
+}
+
+static dem_status list_numbers(region *g, const draft *d, const order *o, lattice_items of)
+{
+    dem_index *list = malloc(((size_t)(o->n_own + o->n) + 1) * sizeof *list);
+    if (list == NULL) return lacks_memory();
+    for (dem_index k = 0; k < o->n_own; k++) list[o->n_before + k] = number_in_slab(d->rows, of, o->own[k]);
+    for (dem_index k = 0; k < o->n; k++) list[place_of(o, k)] = d->number[of].list[o->at[k]];
+    g->number[of] = list;
+    return DEM_OK;
+}
+
+/* Takes an array of the slab, in which what this rank owns comes first, over. */
+static dem_status take_array(region *g, draft *d, const order *o, const lattice_array *a)
+{
+    const size_t size = a->size;
+    char *items = realloc(lattice_array_of(d->rows->lattice, a), (size_t)(o->n_own + o->n) * size + 1);
+    char *others = lattice_array_of(&d->found, a);
+    if (items == NULL) return lacks_memory();
+    lattice_array_put(d->rows->lattice, a, NULL);
+    lattice_array_put(&g->lattice, a, items);
+    memmove(items + (size_t)o->n_before * size, items, (size_t)o->n_own * size);
+    for (dem_index k = 0; k < o->n; k++)
+        memcpy(items + (size_t)place_of(o, k) * size, others + (size_t)o->at[k] * size, size);
+    lattice_array_put(&d->found, a, NULL);
+    free(others);
+    return DEM_OK;
+}
+
+static dem_status list_all(region *g, draft *d, order *o)
+{
+    replace_corners(d, 0, &d->found);
+    replace_corners(d, d->rows->first_node, d->rows->lattice);
+    for (int of = 0; of < LATTICE_ITEMS; of++) {
+        TRY(list_owned(&o[of], d->rows, (lattice_items)of));
+        TRY(list_others(&o[of], d, (lattice_items)of));
+        TRY(list_numbers(g, d, &o[of], (lattice_items)of));
+    }
+    return DEM_OK;
+}
+
+static void shrink_slab(dem_lattice *slab, order *o)
+{
+    lattice_cut cut = {.node = NULL};
+    for (int of = 0; of < LATTICE_ITEMS; of++) {
+        cut.n[of] = o[of].n_own;
+        cut.numbers[of] = o[of].own;
+    }
+    lattice_cut_shrink(slab, &cut);
+    for (int of = 0; of < LATTICE_ITEMS; of++) {
+        free(o[of].own);
+        o[of].own = NULL;
+    }
+}
+
+static dem_status put_in_order(region *g, draft *d, order *o)
+{
+    TRY(list_all(g, d, o));
+    shrink_slab(d->rows->lattice, o);
+    for (int k = 0; k < LATTICE_ARRAYS; k++) {
+        const lattice_array *a = &lattice_arrays[k];
+        if (has_array(d, k)) TRY(take_array(g, d, &o[a->of], a));
+    }
+    for (int of = 0; of < LATTICE_ITEMS; of++) *count_of(&g->lattice, (lattice_items)of) = o[of].n_own + o[of].n;
+    return DEM_OK;
 }
 
 static dem_status finish(region *g, draft *d)
 {
-    order o = {0};
-    const dem_status status = put_in_order(g, &o, d);
-    for (int of = 0; of < LATTICE_ITEMS; of++) free(o.at[of]);
-    free(o.list);
-    free(o.node);
+    order o[LATTICE_ITEMS] = {{0}};
+    const dem_status status = put_in_order(g, d, o);
+    for (int of = 0; of < LATTICE_ITEMS; of++) {
+        free(o[of].own);
+        free(o[of].at);
+    }
     return status;
 }
 
 /* ---- public ---- */
 
-static dem_status open_draft(draft *d, const slab_rows *rows)
+static dem_status open_draft(draft *d, slab_rows *rows)
 {
     const size_t n = (size_t)rows->ranks->size;
     *d = (draft){.rows = rows, .found = dem_lattice_empty()};
@@ -432,11 +541,11 @@ static void close_draft(draft *d)
 static dem_status gather(draft *d, const region_extent *extent)
 {
     if (extent->has_common) TRY(fetch_common(d, extent->common_rings));
-    TRY(fetch_own(d));
+    TRY(reduce_status(d->rows->ranks, take_own(d), 0.0));
     return fetch_rings(d, extent->rings);
 }
 
-dem_status region_create(region *out, const slab_rows *rows, const region_extent *extent)
+dem_status region_create(region *out, slab_rows *rows, const region_extent *extent)
 {
     draft d;
     *out = (region){.lattice = dem_lattice_empty()};

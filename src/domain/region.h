@@ -18,9 +18,10 @@ typedef struct region_extent {
     int rings;        /* about own and common nodes */
 } region_extent;
 
-/** Gathers it from the slabs, ring by ring. Collective; on each rank the same extent. Free with region_free(), after a
- *  failure, too.  \return DEM_ERROR_MEMORY */
-dem_status region_create(region *out, const slab_rows *rows, const region_extent *extent);
+/** Gathers it from the slabs, ring by ring. The arrays of the slab of this rank become those of the region, so that the
+ *  rows have no lattice afterwards. Collective; on each rank the same extent. Free with region_free(), after a failure,
+ *  too.  \return DEM_ERROR_MEMORY */
+dem_status region_create(region *out, slab_rows *rows, const region_extent *extent);
 void region_free(region *g);
 
 #endif

@@ -44,7 +44,7 @@ static dem_index number_owned(dem_index *number, const dem_slab *slab, const dem
 
 static dem_status make_rows(slab_rows *s, const dem_slab *slab, place *own)
 {
-    const dem_lattice *l = &s->lattice;
+    const dem_lattice *l = s->lattice;
     s->first = lattice_zeros(s->ranks->size + 1, sizeof *s->first);
     s->number[LATTICE_SPRINGS] = lattice_zeros(l->n_springs, sizeof *s->number[0]);
     s->number[LATTICE_TRIANGLES] = lattice_zeros(l->n_triangles, sizeof *s->number[0]);
@@ -86,7 +86,7 @@ static void add_places(slab_rows *s, const place *all)
         s->first[k] = s->n[LATTICE_NODES];
         for (int of = LATTICE_SPRINGS; of < LATTICE_ITEMS && k == s->ranks->rank; of++) {
             const lattice_items items = (lattice_items)of;
-            for (dem_index q = 0; q < lattice_count(&s->lattice, items); q++)
+            for (dem_index q = 0; q < lattice_count(s->lattice, items); q++)
                 if (s->number[of][q] >= 0) s->number[of][q] += s->n[of];
         }
         for (int of = 0; of < LATTICE_ITEMS; of++) s->n[of] += all[k].n[of];
@@ -129,8 +129,8 @@ static dem_status find_arrays(slab_rows *s)
         const lattice_array *a = &lattice_arrays[k];
         const bool is_corners =
             a->offset == offsetof(dem_lattice, ends) || a->offset == offsetof(dem_lattice, triangles);
-        if (is_corners || lattice_count(&s->lattice, a->of) == 0) continue;
-        *(lattice_array_of(&s->lattice, a) != NULL ? &p.has : &p.lacks) |= (uint32_t)1 << k;
+        if (is_corners || lattice_count(s->lattice, a->of) == 0) continue;
+        *(lattice_array_of(s->lattice, a) != NULL ? &p.has : &p.lacks) |= (uint32_t)1 << k;
     }
     s->ranks->reduce(s->ranks->self, &p, sizeof p, join_presence);
     s->arrays = p.has;
@@ -156,10 +156,10 @@ static dem_status complete(slab_rows *s, const dem_slab *slab, const place *own)
     return find_arrays(s);
 }
 
-dem_status slab_rows_create(slab_rows *out, const ranks *r, const dem_slab *slab)
+dem_status slab_rows_create(slab_rows *out, const ranks *r, dem_slab *slab)
 {
     place own;
-    *out = (slab_rows){.ranks = r, .lattice = slab->lattice, .first_node = slab->first_node};
+    *out = (slab_rows){.ranks = r, .lattice = &slab->lattice, .first_node = slab->first_node};
     TRY(reduce_status(r, make_rows(out, slab, &own), 0.0));
     return complete(out, slab, &own);
 }
@@ -181,7 +181,7 @@ static bool pack_items(const slab_rows *s, lattice_items of, dem_index at, bundl
     for (int k = 0; has_room && k < LATTICE_ARRAYS; k++) {
         const lattice_array *a = &lattice_arrays[k];
         if (a->of != of || !slab_rows_has(s, k)) continue;
-        has_room = bundle_add(to, (const char *)lattice_array_of(&s->lattice, a) + (size_t)at * a->size, a->size);
+        has_room = bundle_add(to, (const char *)lattice_array_of(s->lattice, a) + (size_t)at * a->size, a->size);
     }
     return has_room;
 }
@@ -196,12 +196,12 @@ typedef struct tuples {
 
 static tuples springs_of(const slab_rows *s)
 {
-    return (tuples){LATTICE_SPRINGS, 2, s->lattice.ends, &s->springs};
+    return (tuples){LATTICE_SPRINGS, 2, s->lattice->ends, &s->springs};
 }
 
 static tuples triangles_of(const slab_rows *s)
 {
-    return (tuples){LATTICE_TRIANGLES, 3, s->lattice.triangles, &s->triangles};
+    return (tuples){LATTICE_TRIANGLES, 3, s->lattice->triangles, &s->triangles};
 }
 
 static bool is_owned_by(const tuples *t, dem_index k, dem_index i)
@@ -222,7 +222,7 @@ static dem_index count_next(const tuples *t, dem_index i)
     return (dem_index)(t->arity - 1) * (t->rows->row[i + 1] - t->rows->row[i]);
 }
 
-static bool pack_next(const slab_rows *s, const tuples *t, dem_index i, bundle *to)
+static bool pack_tuples(const slab_rows *s, const tuples *t, dem_index i, bundle *to)
 {
     bool has_room = true;
     for (int32_t p = t->rows->row[i]; p < t->rows->row[i + 1]; p++)
@@ -246,12 +246,19 @@ static bool pack_owned(const slab_rows *s, const tuples *t, dem_index i, bundle 
     return has_room;
 }
 
+bool slab_rows_pack_next(const slab_rows *s, dem_index number, bundle *to)
+{
+    const dem_index i = number - s->first_node;
+    const tuples springs = springs_of(s), triangles = triangles_of(s);
+    const dem_index n = count_next(&springs, i) + count_next(&triangles, i);
+    return bundle_add(to, &n, sizeof n) && pack_tuples(s, &springs, i, to) && pack_tuples(s, &triangles, i, to);
+}
+
 bool slab_rows_pack(const slab_rows *s, dem_index number, bundle *to)
 {
     const dem_index i = number - s->first_node;
     const tuples springs = springs_of(s), triangles = triangles_of(s);
-    const dem_index head[] = {number, count_next(&springs, i) + count_next(&triangles, i), count_owned(&springs, i),
-                              count_owned(&triangles, i)};
-    return bundle_add(to, head, sizeof head) && pack_next(s, &springs, i, to) && pack_next(s, &triangles, i, to) &&
+    const dem_index head[] = {number, count_owned(&springs, i), count_owned(&triangles, i)};
+    return bundle_add(to, head, sizeof head) && slab_rows_pack_next(s, number, to) &&
            pack_items(s, LATTICE_NODES, i, to) && pack_owned(s, &springs, i, to) && pack_owned(s, &triangles, i, to);
 }

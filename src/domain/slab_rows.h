@@ -12,7 +12,7 @@
 
 typedef struct slab_rows {
     const ranks *ranks;
-    dem_lattice lattice;              /* of the slab, borrowed */
+    dem_lattice *lattice;             /* of the slab, borrowed */
     dem_index first_node;             /* the number in the whole of its node 0 */
     dem_index *first;                 /* [ranks + 1] the number of the first own node of each rank, and behind all */
     dem_index n[LATTICE_ITEMS];       /* of the whole */
@@ -21,11 +21,11 @@ typedef struct slab_rows {
     uint32_t arrays;                  /* bit k: lattice_arrays[k] is in rows */
 } slab_rows;
 
-/** Finds the places of all slabs. Borrows ranks and the arrays of the slab, of which flags, bodies and
- *  velocities are filled. Collective. Free with slab_rows_free(), after a failure, too.
+/** Finds the places of all slabs. Borrows ranks and the lattice of the slab, of which flags, bodies and velocities are
+ *  filled. Collective. Free with slab_rows_free(), after a failure, too.
  *  \return DEM_ERROR_ARGUMENT where slabs do not follow each other, rank by rank, or do not have the same arrays;
  *          DEM_ERROR_MEMORY */
-dem_status slab_rows_create(slab_rows *out, const ranks *r, const dem_slab *slab);
+dem_status slab_rows_create(slab_rows *out, const ranks *r, dem_slab *slab);
 void slab_rows_free(slab_rows *s);
 
 /** The rank that owns node `number` of the whole. */
@@ -40,9 +40,13 @@ static inline bool slab_rows_has(const slab_rows *s, int k)
     return (s->arrays >> k & 1) != 0;
 }
 
-/** Appends the row of own node `number` to a bundle: its number, how many nodes are next to it, how many springs and
- *  triangles it owns; the numbers of the nodes next to it; its items of all arrays; of each spring its number, its
- *  ends, and its items of all other arrays; likewise of triangles.  \return false without memory */
+/** Appends how many nodes are next to own node `number`, and their numbers, to a bundle.
+ *  \return false without memory */
+bool slab_rows_pack_next(const slab_rows *s, dem_index number, bundle *to);
+
+/** Appends the row of own node `number`: its number, how many springs and triangles it owns; the nodes next to it, as
+ *  slab_rows_pack_next(); its items of all arrays; of each spring its number, its ends, and its items of all other
+ *  arrays; likewise of triangles.  \return false without memory */
 bool slab_rows_pack(const slab_rows *s, dem_index number, bundle *to);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A copy of a part of a lattice, made without a copy of the whole. */
+/* A part of a lattice, made without a copy of the whole. */
 #ifndef DEM_LATTICE_LATTICE_CUT_H
 #define DEM_LATTICE_LATTICE_CUT_H
 
@@ -15,5 +15,8 @@ typedef struct lattice_cut {
 /** Copies it. Node numbers of the whole are known to be valid. Free with dem_lattice_free().
  *  \return DEM_ERROR_MEMORY */
 dem_status lattice_cut_create(dem_lattice *out, const dem_lattice *whole, const lattice_cut *cut);
+
+/** Leaves nothing but the part in its arrays, which shrink in place. No two of them are the same. */
+void lattice_cut_shrink(dem_lattice *whole, const lattice_cut *cut);
 
 #endif

@@ -100,10 +100,16 @@ static double shortest_side(const dem_lattice *l)
     return shortest;
 }
 
+static void forget_place(dem_slab *s)
+{
+    s->n_nodes = s->n_triangles = s->first_node = s->first_triangle = s->first_own = s->n_own = 0;
+}
+
 /* ---- public ---- */
 
-dem_status slab_read(dem_slab *ours, const dem_slab *theirs)
+dem_status slab_take(dem_slab *ours, dem_slab *theirs)
 {
+    const dem_lattice none = dem_lattice_empty();
     TRY(check(theirs));
     *ours = dem_slab_empty();
     ours->n_nodes = theirs->n_nodes;
@@ -112,14 +118,17 @@ dem_status slab_read(dem_slab *ours, const dem_slab *theirs)
     ours->first_triangle = theirs->first_triangle;
     ours->first_own = theirs->first_own;
     ours->n_own = theirs->n_own;
-    return lattice_read(&ours->lattice, &theirs->lattice);
+    TRY(lattice_read(&ours->lattice, &theirs->lattice));
+    lattice_give(&theirs->lattice, &none);
+    forget_place(theirs);
+    return DEM_OK;
 }
 
 void dem_slab_free(dem_slab *slab)
 {
     if (slab == NULL || !struct_size_fits(&kind, slab)) return;
     dem_lattice_free(&slab->lattice);
-    slab->n_nodes = slab->n_triangles = slab->first_node = slab->first_triangle = slab->first_own = slab->n_own = 0;
+    forget_place(slab);
 }
 
 dem_status dem_slab_rectangle(dem_slab *out, double width, double height, double spacing, dem_index part,

@@ -5,9 +5,9 @@
 
 #include <dem/dem.h>
 
-/** Checks that a slab has a place in a whole, and that its node numbers are valid, and copies the struct, of whatever
- *  version. Arrays are not copied.
- *  \return DEM_ERROR_ARGUMENT, DEM_ERROR_MODEL */
-dem_status slab_read(dem_slab *ours, const dem_slab *theirs);
+/** Checks that a slab has a place in a whole, and that its node numbers are valid, and takes its arrays over: theirs,
+ *  of whatever version, is empty afterwards.
+ *  \return DEM_ERROR_ARGUMENT, DEM_ERROR_MODEL; then nothing has changed */
+dem_status slab_take(dem_slab *ours, dem_slab *theirs);
 
 #endif

@@ -3,7 +3,7 @@
  * neighbours of its own nodes. The boundary, as a side whose other triangle belongs to another rank only is none, and
  * the shares of springs in stresses, as a side opposite to an own node may have its other triangle elsewhere, follow
  * from a lattice with the triangles beside the domain; scales are joined of what each rank finds of its own nodes
- * (model/model_scales.h). Orders of nodes, springs and triangles are those of the whole, so that sums over a row have
+ * (model/model_scales.c). Orders of nodes, springs and triangles are those of the whole, so that sums over a row have
  * the same bits. A ghost of the last ring has the inverse mass 0, as its row is not complete. What ghosts do comes from
  * their owners, but several rings of them can be integrated here through a step. All that is taken from the whole is
  * the cut of a domain (model/domain_cut.h), which may be made on rank 0 and sent; the rest is compiled from it alone.
@@ -131,28 +131,39 @@ dem_status domain_model_distribute(dem_model **out, const ranks *r, const dem_mo
 
 /* ---- from slabs of the whole, of which each rank has one ---- */
 
-static dem_status list_owners(int32_t **owner, const region *g, const slab_rows *rows)
+/* What there is of the whole for this rank. */
+typedef struct surroundings {
+    region region;
+    int32_t *owner; /* [nodes of the region] */
+} surroundings;
+
+static dem_status list_owners(surroundings *g, const slab_rows *rows)
 {
-    *owner = malloc((size_t)g->lattice.n_nodes * sizeof **owner);
-    CHECK_MEMORY(*owner);
-    for (dem_index i = 0; i < g->lattice.n_nodes; i++)
-        (*owner)[i] = (int32_t)slab_rows_owner(rows, g->number[LATTICE_NODES][i]);
+    const dem_index n = g->region.lattice.n_nodes;
+    g->owner = malloc((size_t)n * sizeof *g->owner);
+    CHECK_MEMORY(g->owner);
+    for (dem_index i = 0; i < n; i++) g->owner[i] = (int32_t)slab_rows_owner(rows, g->region.number[LATTICE_NODES][i]);
     return DEM_OK;
 }
 
-/* The region is as a whole lattice for this rank; what is found there of other ranks' ghosts need not be all. */
-static dem_status cut_region(domain_cut *c, const region *g, const slab_rows *rows, const whole_parts *of,
-                             domain_model_shares shares)
+/* Rows end, as nobody asks for any more of them. */
+static dem_status gather(surroundings *g, slab_rows *rows, const region_extent *extent)
 {
-    int32_t *owner = NULL;
+    g->owner = NULL;
+    TRY(region_create(&g->region, rows, extent));
+    const dem_status status = list_owners(g, rows);
+    slab_rows_free(rows);
+    return status;
+}
+
+/* It is as a whole lattice for this rank; what is found there of other ranks' ghosts need not be all. */
+static dem_status cut_region(domain_cut *c, const ranks *r, const whole_parts *of, const domain_model_shares *shares)
+{
     whole_lattice w = {0};
-    dem_status status = list_owners(&owner, g, rows);
-    shares.owner = owner;
-    if (status == DEM_OK) status = whole_lattice_open(&w, of, rows->ranks->size, &shares);
+    dem_status status = whole_lattice_open(&w, of, r->size, shares);
     if (status == DEM_OK) status = domain_cut_open(c);
-    if (status == DEM_OK) status = domain_cut_fill(c, &w, rows->ranks->rank);
+    if (status == DEM_OK) status = domain_cut_fill(c, &w, r->rank);
     whole_lattice_close(&w);
-    free(owner);
     return status;
 }
 
@@ -164,33 +175,38 @@ static region_extent extent_of(const whole_parts *of, const ranks *r, const doma
 }
 
 /* Without an array of positions the motion starts at x. */
-static dem_status cut_slabs(domain_cut *c, const slab_rows *rows, const domain_model_shares *shares, bool has_obstacles)
+static dem_status cut_slabs(domain_cut *c, slab_rows *rows, domain_model_shares shares, bool has_obstacles)
 {
     const rigid_bodies none = {0};
-    whole_parts of = {.lattice = &rows->lattice,
+    const ranks *r = rows->ranks;
+    whole_parts of = {.lattice = rows->lattice,
                       .rigid = &none,
                       .n = {rows->n[LATTICE_NODES], rows->n[LATTICE_SPRINGS], rows->n[LATTICE_TRIANGLES]},
                       .has_obstacles = has_obstacles,
-                      .is_slack = rows->lattice.area_stiffness == NULL && rows->lattice.coupling == NULL,
-                      .counting = rows->ranks};
-    const region_extent extent = extent_of(&of, rows->ranks, shares);
-    region g;
-    dem_status status = region_create(&g, rows, &extent);
-    const bool is_at_x = g.lattice.position == NULL;
-    if (is_at_x) g.lattice.position = g.lattice.x; /* neither is changed */
-    of.lattice = &g.lattice;
-    for (int k = 0; k < LATTICE_ITEMS; k++) of.number[k] = g.number[k];
-    if (status == DEM_OK) status = cut_region(c, &g, rows, &of, *shares);
-    if (is_at_x) g.lattice.position = NULL;
-    region_free(&g);
+                      .is_slack = rows->lattice->area_stiffness == NULL && rows->lattice->coupling == NULL,
+                      .counting = r};
+    const region_extent extent = extent_of(&of, r, &shares);
+    surroundings g;
+    dem_status status = gather(&g, rows, &extent);
+    dem_lattice *l = &g.region.lattice;
+    const bool is_at_x = l->position == NULL;
+    if (is_at_x) l->position = l->x; /* neither is changed */
+    of.lattice = l;
+    for (int k = 0; k < LATTICE_ITEMS; k++) of.number[k] = g.region.number[k];
+    shares.owner = g.owner;
+    if (status == DEM_OK) status = cut_region(c, r, &of, &shares);
+    if (is_at_x) l->position = NULL;
+    region_free(&g.region);
+    free(g.owner);
     return status;
 }
 
-dem_status domain_model_gather(dem_model **out, const slab_rows *rows, const domain_model_shares *shares,
+dem_status domain_model_gather(dem_model **out, slab_rows *rows, const domain_model_shares *shares,
                                const dem_obstacle *obstacles, dem_index n_obstacles)
 {
+    const ranks *r = rows->ranks;
     domain_cut c = {0};
-    dem_status status = cut_slabs(&c, rows, shares, n_obstacles > 0);
+    dem_status status = cut_slabs(&c, rows, *shares, n_obstacles > 0);
     if (status == DEM_OK) status = domain_compile(&c, obstacles, n_obstacles, false);
-    return finish(out, rows->ranks, &c, status);
+    return finish(out, r, &c, status);
 }

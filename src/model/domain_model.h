@@ -28,9 +28,10 @@ dem_status domain_model_distribute(dem_model **out, const ranks *r, const dem_mo
 
 /** The same where each rank has a slab of the whole, and owns the nodes of its range; nobody has the whole, and bodies
  *  do not touch each other.
- *  \param rows    of a lattice that has velocities, and nothing rigid or breakable
+ *  \param rows    of a lattice that has velocities, and nothing rigid or breakable; they end, and so do the arrays of
+ *                 the slab
  *  \param shares  without owners, and nodes that are near */
-dem_status domain_model_gather(dem_model **out, const slab_rows *rows, const domain_model_shares *shares,
+dem_status domain_model_gather(dem_model **out, slab_rows *rows, const domain_model_shares *shares,
                                const dem_obstacle *obstacles, dem_index n_obstacles);
 
 #endif

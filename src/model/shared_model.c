@@ -133,7 +133,7 @@ static dem_status share_whole(dem_model **out, const dem_private_whole *whole, c
 /* ---- in slabs ---- */
 
 /* What a rank does by itself. */
-static dem_status prepare_slab(slab_lattice *slab, void **obstacles, const dem_private_whole *of)
+static dem_status prepare_slab(dem_slab *slab, void **obstacles, const dem_private_whole *of)
 {
     TRY(of->refused);
     CHECK(of->touching != DEM_PRIVATE_TOUCHING_SOME, DEM_ERROR_MODEL,
@@ -141,10 +141,10 @@ static dem_status prepare_slab(slab_lattice *slab, void **obstacles, const dem_p
     CHECK(of->n_obstacles >= 0 && (of->n_obstacles == 0 || of->obstacles != NULL), DEM_ERROR_ARGUMENT,
           "%lld obstacles, obstacles is %s", (long long)of->n_obstacles, of->obstacles ? "given" : "NULL");
     TRY(obstacle_input_read_all(obstacles, of->obstacles, of->n_obstacles));
-    return slab_lattice_create(slab, of->slab);
+    return slab_lattice_take(slab, of->slab);
 }
 
-static dem_status gather(dem_model **out, const ranks *r, const dem_slab *slab, const dem_private_whole *of,
+static dem_status gather(dem_model **out, const ranks *r, dem_slab *slab, const dem_private_whole *of,
                          const dem_obstacle *obstacles)
 {
     const domain_model_shares shares = {.use = of->use};
@@ -161,10 +161,10 @@ static dem_status gather(dem_model **out, const ranks *r, const dem_slab *slab, 
 static dem_status share_slab(dem_model **out, const dem_private_whole *of, const ranks *r)
 {
     void *obstacles = NULL;
-    slab_lattice slab = {.slab = dem_slab_empty()};
+    dem_slab slab = dem_slab_empty();
     dem_status status = reduce_status(r, prepare_slab(&slab, &obstacles, of), 0.0);
-    if (status == DEM_OK) status = gather(out, r, &slab.slab, of, obstacles);
-    slab_lattice_free(&slab);
+    if (status == DEM_OK) status = gather(out, r, &slab, of, obstacles);
+    dem_slab_free(&slab);
     free(obstacles);
     if (status == DEM_OK) (*out)->ends_ranks = r->end != NULL;
     return status;

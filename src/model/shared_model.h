@@ -19,7 +19,7 @@ typedef enum dem_private_touching {
 /** A lattice and obstacles, as dem_model_create() takes them. */
 typedef struct dem_private_whole {
     const dem_lattice *lattice;
-    const dem_slab *slab;          /* of a lattice that nobody has; NULL: all have `lattice` */
+    dem_slab *slab;                /* of a lattice that nobody has, taken over; NULL: all have `lattice` */
     const dem_obstacle *obstacles; /* [n_obstacles] */
     dem_index n_obstacles;
     dem_private_touching touching;

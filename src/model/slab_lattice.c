@@ -3,12 +3,13 @@
  * from their owners. */
 #include "model/slab_lattice.h"
 
+#include <stddef.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/status.h"
 #include "base/vec2.h"
 #include "lattice/lattice.h"
+#include "lattice/lattice_arrays.h"
 #include "lattice/mesh_edges.h"
 #include "lattice/slab.h"
 #include "model/breakable_nodes.h"
@@ -47,49 +48,39 @@ static dem_status check_springs(const dem_slab *s)
 
 /* ---- what arrays stand for ---- */
 
-static dem_status make_arrays(slab_lattice *s)
+static dem_status add_zeros(dem_lattice *l, size_t offset)
 {
-    const dem_lattice *l = &s->slab.lattice;
-    s->flags = lattice_zeros(l->n_nodes, sizeof *s->flags);
-    s->body = lattice_zeros(l->n_nodes, sizeof *s->body);
-    s->velocity = lattice_zeros(l->n_nodes, 2 * sizeof *s->velocity);
-    CHECK(s->flags && s->body && s->velocity, DEM_ERROR_MEMORY, "out of memory for a slab of %lld nodes",
-          (long long)l->n_nodes);
+    for (int k = 0; k < LATTICE_ARRAYS; k++) {
+        const lattice_array *a = &lattice_arrays[k];
+        if (a->offset != offset || lattice_array_of(l, a) != NULL) continue;
+        void *zeros = lattice_zeros(lattice_count(l, a->of), a->size);
+        CHECK(zeros != NULL, DEM_ERROR_MEMORY, "out of memory for a slab of %lld nodes", (long long)l->n_nodes);
+        lattice_array_put(l, a, zeros);
+    }
     return DEM_OK;
 }
 
 /* A fixed node has no velocity. */
-static dem_status complete(slab_lattice *s)
+static dem_status complete(dem_lattice *l)
 {
-    dem_lattice *l = &s->slab.lattice;
-    TRY(make_arrays(s));
-    if (l->flags == NULL) TRY(mesh_edges_contact_flags(s->flags, l));
-    if (l->flags != NULL) memcpy(s->flags, l->flags, (size_t)l->n_nodes * sizeof *s->flags);
-    if (l->velocity != NULL) memcpy(s->velocity, l->velocity, 2 * (size_t)l->n_nodes * sizeof *s->velocity);
+    const bool has_flags = l->flags != NULL;
+    TRY(add_zeros(l, offsetof(dem_lattice, flags)));
+    TRY(add_zeros(l, offsetof(dem_lattice, body)));
+    TRY(add_zeros(l, offsetof(dem_lattice, velocity)));
+    if (!has_flags) TRY(mesh_edges_contact_flags(l->flags, l));
     for (dem_index i = 0; i < l->n_nodes; i++)
-        if (s->flags[i] & DEM_NODE_FIXED) vec2_put(s->velocity, i, (vec2){0.0, 0.0});
-    l->flags = s->flags;
-    l->body = s->body;
-    l->velocity = s->velocity;
+        if (l->flags[i] & DEM_NODE_FIXED) vec2_put(l->velocity, i, (vec2){0.0, 0.0});
     return DEM_OK;
 }
 
 /* ---- public ---- */
 
-dem_status slab_lattice_create(slab_lattice *out, const dem_slab *slab)
+dem_status slab_lattice_take(dem_slab *out, dem_slab *slab)
 {
-    *out = (slab_lattice){.slab = dem_slab_empty()};
-    TRY(slab_read(&out->slab, slab));
-    TRY(model_rules_check(&out->slab.lattice, out->slab.n_nodes));
-    TRY(check_kind(&out->slab.lattice));
-    TRY(check_springs(&out->slab));
-    return complete(out);
-}
-
-void slab_lattice_free(slab_lattice *s)
-{
-    free(s->flags);
-    free(s->body);
-    free(s->velocity);
-    *s = (slab_lattice){.slab = dem_slab_empty()};
+    *out = dem_slab_empty();
+    TRY(slab_take(out, slab));
+    TRY(model_rules_check(&out->lattice, out->n_nodes));
+    TRY(check_kind(&out->lattice));
+    TRY(check_springs(out));
+    return complete(&out->lattice);
 }

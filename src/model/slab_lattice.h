@@ -5,17 +5,10 @@
 
 #include <dem/dem.h>
 
-typedef struct slab_lattice {
-    dem_slab slab; /* whose flags, bodies and velocities are those below */
-    unsigned char *flags;
-    int32_t *body;
-    double *velocity;
-} slab_lattice;
-
-/** Reads a slab, whose other arrays are borrowed. Free with slab_lattice_free(), after a failure, too.
+/** Takes the arrays of a slab over, which is empty afterwards, and adds flags, bodies and velocities where they are
+ *  missing. Free with dem_slab_free(), after a failure, too.
  *  \return DEM_ERROR_MODEL for what cannot move, for nodes without springs, and for what slabs cannot be of: several
  *          bodies, rigid ones, those that may break, those without triangles; DEM_ERROR_ARGUMENT, DEM_ERROR_MEMORY */
-dem_status slab_lattice_create(slab_lattice *out, const dem_slab *slab);
-void slab_lattice_free(slab_lattice *s);
+dem_status slab_lattice_take(dem_slab *out, dem_slab *slab);
 
 #endif

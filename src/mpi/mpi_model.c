@@ -53,15 +53,25 @@ dem_status dem_model_create_mpi_for(dem_model **out, const dem_lattice *lattice,
     return share(out, &whole, communicator);
 }
 
-dem_status dem_model_create_mpi_slab(dem_model **out, const dem_slab *slab, const dem_obstacle *obstacles,
+static dem_status share_slab(dem_model **out, dem_slab *slab, dem_private_whole *whole, const dem_options *options,
+                             MPI_Comm communicator)
+{
+    dem_slab none = dem_slab_empty();
+    TRY(check(out, communicator));
+    whole->slab = slab != NULL ? slab : &none;
+    if (options != NULL) whole->refused = dem_private_use_shared(whole, options);
+    if (slab == NULL) whole->refused = dem_private_fail(DEM_ERROR_ARGUMENT, "dem_model_create_mpi_slab: slab is NULL");
+    return share(out, whole, communicator);
+}
+
+/* What has been refused before the slab was taken over ends here. */
+dem_status dem_model_create_mpi_slab(dem_model **out, dem_slab *slab, const dem_obstacle *obstacles,
                                      dem_index n_obstacles, const dem_options *options, MPI_Comm communicator)
 {
-    const dem_slab none = dem_slab_empty();
-    TRY(check(out, communicator));
-    dem_private_whole whole = {.slab = slab != NULL ? slab : &none, .obstacles = obstacles, .n_obstacles = n_obstacles};
-    if (options != NULL) whole.refused = dem_private_use_shared(&whole, options);
-    if (slab == NULL) whole.refused = dem_private_fail(DEM_ERROR_ARGUMENT, "dem_model_create_mpi_slab: slab is NULL");
-    return share(out, &whole, communicator);
+    dem_private_whole whole = {.obstacles = obstacles, .n_obstacles = n_obstacles};
+    const dem_status status = share_slab(out, slab, &whole, options, communicator);
+    dem_slab_free(slab);
+    return status;
 }
 
 dem_status dem_model_create_mpi_f(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
@@ -76,7 +86,7 @@ dem_status dem_model_create_mpi_for_f(dem_model **out, const dem_lattice *lattic
     return dem_model_create_mpi_for(out, lattice, obstacles, n_obstacles, options, MPI_Comm_f2c(communicator));
 }
 
-dem_status dem_model_create_mpi_slab_f(dem_model **out, const dem_slab *slab, const dem_obstacle *obstacles,
+dem_status dem_model_create_mpi_slab_f(dem_model **out, dem_slab *slab, const dem_obstacle *obstacles,
                                        dem_index n_obstacles, const dem_options *options, MPI_Fint communicator)
 {
     return dem_model_create_mpi_slab(out, slab, obstacles, n_obstacles, options, MPI_Comm_f2c(communicator));

@@ -68,7 +68,6 @@ static dem_model *make_shared(dem_index nodes, const dem_options *options, team 
     ask(dem_slab_rectangle(&s, side_of(nodes), side_of(nodes), spacing, t.rank, t.size));
     make_solid(&s.lattice);
     ask(dem_model_create_mpi_slab(&model, &s, &ground, 1, options, MPI_COMM_WORLD));
-    dem_slab_free(&s);
     return model;
 }
 

@@ -40,6 +40,11 @@ static dem_slab make_slab(team t)
     return s;
 }
 
+static bool is_empty(const dem_slab *s)
+{
+    return s->n_own == 0 && s->n_nodes == 0 && s->lattice.n_nodes == 0 && s->lattice.x == NULL;
+}
+
 typedef struct seen {
     double *x, *v; /* [n][2] of the whole */
     dem_energy energy;
@@ -84,7 +89,7 @@ static void check(dem_method method, team t)
     seen alone = run(model, &options, whole.n_nodes);
     dem_model_destroy(model);
     INSIST(dem_model_create_mpi_slab(&model, &slab, &floor, 1, &options, MPI_COMM_WORLD) == DEM_OK);
-    dem_slab_free(&slab);
+    INSIST(is_empty(&slab));
     seen shared = run(model, &options, whole.n_nodes);
     dem_model_destroy(model);
     compare(&shared, &alone, whole.n_nodes, t.rank);
@@ -96,19 +101,27 @@ static void check(dem_method method, team t)
 }
 
 /* On all ranks, whichever has it. */
-static void refuse(team t)
+static void refuse(dem_slab *slab, const dem_options *options, dem_status status, const char *message)
 {
     dem_model *model = NULL;
-    dem_slab slab = make_slab(t);
+    INSIST(dem_model_create_mpi_slab(&model, slab, NULL, 0, options, MPI_COMM_WORLD) == status);
+    INSIST(strstr(dem_status_message(), message) != NULL && model == NULL);
+    INSIST(slab == NULL || is_empty(slab));
+}
+
+static void refuse_all(team t)
+{
     dem_options options = dem_options_default();
-    const dem_slab *given = t.rank == t.size - 1 ? NULL : &slab;
-    INSIST(dem_model_create_mpi_slab(&model, given, NULL, 0, NULL, MPI_COMM_WORLD) == DEM_ERROR_ARGUMENT);
-    INSIST(strstr(dem_status_message(), "slab is NULL") != NULL);
+    dem_slab slab = make_slab(t);
+    refuse(t.rank == t.size - 1 ? NULL : &slab, NULL, DEM_ERROR_ARGUMENT, "slab is NULL");
+    dem_slab_free(&slab);
+    slab = make_slab(t);
     options.bodies = DEM_BODIES_ALL;
     options.contact_thickness = spacing;
-    INSIST(dem_model_create_mpi_slab(&model, &slab, NULL, 0, &options, MPI_COMM_WORLD) == DEM_ERROR_MODEL);
-    INSIST(strstr(dem_status_message(), "cannot touch") != NULL && model == NULL);
-    dem_slab_free(&slab);
+    refuse(&slab, &options, DEM_ERROR_MODEL, "cannot touch");
+    slab = make_slab(t);
+    INSIST(dem_model_create_mpi_slab(NULL, &slab, NULL, 0, NULL, MPI_COMM_WORLD) == DEM_ERROR_ARGUMENT);
+    INSIST(is_empty(&slab));
 }
 
 int main(int argc, char **argv)
@@ -116,7 +129,7 @@ int main(int argc, char **argv)
     const team t = rank_test_begin(&argc, &argv);
     check(DEM_METHOD_FEHLBERG45, t);
     check(DEM_METHOD_VERLET, t);
-    refuse(t);
+    refuse_all(t);
     (void)MPI_Finalize();
     return 0;
 }

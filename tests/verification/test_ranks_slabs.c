@@ -93,10 +93,21 @@ static void open_scene(scene *s, const kind *k)
 
 typedef struct shared_run {
     const scene *scene;
-    dem_slab slabs[RANK_RUNS_MOST];
+    dem_slab slabs[RANK_RUNS_MOST];      /* are taken over */
+    dem_index first[RANK_RUNS_MOST + 1]; /* own nodes, and behind the last */
     rank_runs_outcome outcomes[RANK_RUNS_MOST];
     bool is_cut[RANK_RUNS_MOST]; /* whether the domain is as one that is cut from the whole */
 } shared_run;
+
+static void make_slabs(shared_run *run, int n)
+{
+    for (int part = 0; part < n; part++) {
+        dem_slab *s = &run->slabs[part];
+        *s = make_slab(run->scene, part, n);
+        run->first[part] = s->first_node + s->first_own;
+        run->first[part + 1] = run->first[part] + s->n_own;
+    }
+}
 
 static bool is_same_list(const void *a, const void *b, dem_index n, size_t size)
 {
@@ -139,8 +150,7 @@ static bool is_as_cut(const ranks *r, const shared_run *run, const dem_model *mo
     int32_t *owner = malloc((size_t)whole->lattice.n_nodes * sizeof *owner);
     dem_model *cut = NULL;
     for (int k = 0; k < r->size; k++)
-        for (dem_index i = 0; i < run->slabs[k].n_own; i++)
-            owner[run->slabs[k].first_node + run->slabs[k].first_own + i] = (int32_t)k;
+        for (dem_index i = run->first[k]; i < run->first[k + 1]; i++) owner[i] = (int32_t)k;
     const domain_model_shares shares = {.owner = owner, .use = use_of(run->scene->kind)};
     const bool same = domain_model_create(&cut, r, whole, &shares) == DEM_OK && is_same_domain(model, cut);
     dem_model_destroy(cut);
@@ -173,16 +183,16 @@ static void check(const kind *k)
     assert_true(!k->has_floor || whole.n_notes > 10);
     for (int n = 1; n <= 4; n++) {
         shared_run run = {.scene = &s};
-        for (int part = 0; part < n; part++) run.slabs[part] = make_slab(&s, part, n);
+        make_slabs(&run, n);
         rank_runs_make_outcomes(&s.run, n, run.outcomes);
         rank_threads_run(n, run_rank, &run);
         for (int rank = 0; rank < n; rank++) {
             const char *what = rank_runs_difference(&run.outcomes[rank], &whole, NULL);
             if (what != NULL) fail_msg("rank %d of %d has another %s: '%s'", rank, n, what, run.outcomes[rank].message);
             assert_true(run.is_cut[rank]);
+            assert_true(run.slabs[rank].n_own == 0 && run.slabs[rank].lattice.x == NULL);
         }
         rank_runs_free_outcomes(run.outcomes, n);
-        for (int part = 0; part < n; part++) dem_slab_free(&run.slabs[part]);
     }
     rank_runs_free_outcome(&whole);
     dem_model_destroy(s.run.model);
@@ -216,38 +226,50 @@ TEST(a_block_in_slabs_falls_on_obstacles_as_the_whole)
 
 /* ---- what is refused ---- */
 
-static void expect_refusal(shared_run *run, int n, dem_status status, const char *message)
+static void add_strength(dem_slab *s)
 {
-    rank_threads_run(n, run_rank, run);
-    for (int k = 0; k < n; k++) {
-        assert_int_equal(run->outcomes[k].status, status);
-        if (!message_has_parts(run->outcomes[k].message, message))
-            fail_msg("'%s' has not the parts '%s'", run->outcomes[k].message, message);
+    dem_lattice *l = &s->lattice;
+    l->strength = malloc((size_t)l->n_triangles * sizeof *l->strength);
+    for (dem_index t = 0; t < l->n_triangles; t++) l->strength[t] = 1e6;
+}
+
+static void take_masses(dem_slab *s)
+{
+    free(s->lattice.mass);
+    s->lattice.mass = NULL;
+}
+
+static void stiffen(dem_slab *s)
+{
+    assert_ok(dem_lattice_stiffen(&s->lattice, DEM_GUIDE_NONE));
+}
+
+static void displace(dem_slab *s)
+{
+    s->first_node++;
+}
+
+/* What one of two slabs has. */
+static void expect_refusal(void (*change)(dem_slab *s), dem_status status, const char *message)
+{
+    const kind plain = {.method = DEM_METHOD_VERLET};
+    const scene s = {.kind = &plain};
+    shared_run run = {.scene = &s};
+    make_slabs(&run, 2);
+    change(&run.slabs[1]);
+    rank_threads_run(2, run_rank, &run);
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(run.outcomes[k].status, status);
+        if (!message_has_parts(run.outcomes[k].message, message))
+            fail_msg("'%s' has not the parts '%s'", run.outcomes[k].message, message);
+        dem_slab_free(&run.slabs[k]);
     }
 }
 
 TEST(slabs_refuse_what_they_cannot_be_of_on_all_ranks)
 {
-    const kind plain = {.method = DEM_METHOD_VERLET};
-    const scene s = {.kind = &plain};
-    shared_run run = {.scene = &s};
-    double *kept, *strength;
-    for (int part = 0; part < 2; part++) run.slabs[part] = make_slab(&s, part, 2);
-    dem_lattice *l = &run.slabs[1].lattice;
-    strength = malloc((size_t)l->n_triangles * sizeof *strength);
-    for (dem_index t = 0; t < l->n_triangles; t++) strength[t] = 1e6;
-    l->strength = strength;
-    expect_refusal(&run, 2, DEM_ERROR_MODEL, "may break are not supported");
-    l->strength = NULL;
-    free(strength);
-    kept = l->mass;
-    l->mass = NULL;
-    expect_refusal(&run, 2, DEM_ERROR_ARGUMENT, "no array of masses");
-    l->mass = kept;
-    assert_ok(dem_lattice_stiffen(l, DEM_GUIDE_NONE));
-    expect_refusal(&run, 2, DEM_ERROR_MODEL, "rigid bodies are not supported");
-    run.slabs[1].first_node++;
-    memset(l->flags, 0, (size_t)l->n_nodes);
-    expect_refusal(&run, 2, DEM_ERROR_ARGUMENT, "no part of");
-    for (int part = 0; part < 2; part++) dem_slab_free(&run.slabs[part]);
+    expect_refusal(add_strength, DEM_ERROR_MODEL, "may break are not supported");
+    expect_refusal(take_masses, DEM_ERROR_ARGUMENT, "no array of masses");
+    expect_refusal(stiffen, DEM_ERROR_MODEL, "rigid bodies are not supported");
+    expect_refusal(displace, DEM_ERROR_ARGUMENT, "no part of");
 }
