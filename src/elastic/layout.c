@@ -21,8 +21,9 @@
 #include "elastic/ring_streams.h"
 
 enum {
-    whole = 0xffff,   /* mask of all lanes */
-    usual_span = 1024 /* nodes: the ring for so many fits into the cache, so that no other order is sought */
+    whole = 0xffff,    /* mask of all lanes */
+    usual_span = 1024, /* nodes: the ring for so many fits into the cache, so that no other order is sought, */
+    least_rows = 8     /* nor where there are so many rows, which vectors take as they are */
 };
 
 /* A ring may take this and 64 bytes for each node: more memory is not worth it. */
@@ -428,14 +429,20 @@ static dem_status allocate_order(builder *b)
     return DEM_OK;
 }
 
-/* Renumbers the nodes if neighbours are far apart as they are numbered and at most half as far after renumbering. Then
- * sets the sizes that follow from the distance: how far blocks reach, and the length of the ring, a power of 2 so that
- * a place in it is found with a mask. */
+static bool is_fit(const springs *s, dem_index span)
+{
+    return span <= usual_span || (least_rows * span <= s->n_nodes && renumber_is_by_rows(s));
+}
+
+/* Renumbers the nodes if neighbours are far apart as they are numbered and at most half as far after renumbering. Nodes
+ * in rows stay as they are, however long rows are: their neighbours lie side by side, and only what is not renumbered
+ * is taken in waves. Then sets the sizes that follow from the distance: how far blocks reach, and the length of the
+ * ring, a power of 2 so that a place in it is found with a mask. */
 static dem_status choose_order(builder *b)
 {
     layout *l = b->l;
     dem_index span = renumber_span(b->s, NULL);
-    if (span > usual_span) {
+    if (!is_fit(b->s, span)) {
         TRY(allocate_order(b));
         renumber_by_distance(b->s, l->order, b->place);
         const dem_index better = renumber_span(b->s, b->place);

@@ -17,6 +17,25 @@ dem_index renumber_span(const springs *s, const int32_t *place)
     return span;
 }
 
+/* Of two rows that are next to each other, neighbours of the second one that are next to one of the first. */
+static dem_index count_beside(const springs *s, dem_index i)
+{
+    dem_index n = 0;
+    int32_t p = s->row[i - 1];
+    for (int32_t q = s->row[i]; q < s->row[i + 1]; q++) {
+        while (p < s->row[i] && s->neighbour[p] < s->neighbour[q] - 1) p++;
+        n += p < s->row[i] && s->neighbour[p] == s->neighbour[q] - 1;
+    }
+    return n;
+}
+
+bool renumber_is_by_rows(const springs *s)
+{
+    dem_index n = 0;
+    for (dem_index i = 1; i < s->n_nodes; i++) n += count_beside(s, i);
+    return 2 * n > s->row[s->n_nodes];
+}
+
 /* Appends the part of the lattice that is connected to `first` to the list, which has n nodes so far: each node found
  * adds its neighbours that have no place yet. `order` serves as the queue.
  * \return the new length of the list */

@@ -77,3 +77,20 @@ TEST(nodes_without_springs_are_numbered_too)
     for (dem_index q = 0; q < n; q++) assert_int_equal(c.place[c.order[q]], q);
     springs_free(&c.springs);
 }
+
+/* Along themselves, and in two rows between which they go to and fro; and without an order. */
+TEST(chains_may_be_numbered_by_rows)
+{
+    dem_index at[n];
+    chain c;
+    for (int far = 0; far < 2; far++) {
+        for (dem_index k = 0; k < n; k++) at[k] = far ? k % 2 * (n / 2) + k / 2 : k;
+        make_chains(&c, at);
+        assert_true(renumber_is_by_rows(&c.springs));
+        springs_free(&c.springs);
+    }
+    shuffle(at, 1);
+    make_chains(&c, at);
+    assert_false(renumber_is_by_rows(&c.springs));
+    springs_free(&c.springs);
+}

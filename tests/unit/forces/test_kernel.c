@@ -614,6 +614,17 @@ TEST(any_numbering_agrees)
     }
 }
 
+/* As many rows as are worth it, and fewer. */
+TEST(long_rows_keep_their_numbers)
+{
+    for (int few = 0; few < 2; few++) {
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(10.5, few ? 0.04 : 0.12, &rubber);
+        check_lattice(&lattice, 0.05);
+        CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
+        assert_int_equal(s.model->layout.order != NULL, few);
+    }
+}
+
 /* Springs of stiffness and length of their own between random nodes. */
 TEST(random_springs_agree)
 {
