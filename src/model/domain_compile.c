@@ -109,6 +109,7 @@ static dem_status take_lattice(domain_cut *c, const numbers *q)
         if (q->triangle[k] >= 0) c->triangle[q->triangle[k]] = c->triangle[k];
     c->model->domain->triangle = c->triangle;
     c->model->lattice = *l;
+    if (l->position == NULL) c->model->lattice.position = l->x; /* neither is changed */
     c->triangle = NULL;
     *l = dem_lattice_empty();
     return DEM_OK;

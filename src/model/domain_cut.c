@@ -48,7 +48,8 @@ static dem_status find_tuples(dem_index **list, dem_index *n, const tuples *t, c
 /* The lattice about a domain, by numbers of the whole. */
 typedef struct draft {
     dem_index n[LATTICE_ITEMS];
-    dem_index *node; /* [n] ascending, as those of springs and triangles in the cut */
+    dem_index *node;     /* [n] ascending, as those of springs and triangles in the cut */
+    dem_lattice *arrays; /* which become those of the cut; NULL: they are copied */
 } draft;
 
 /* The corners of triangles that are not in the domain, ascending: each is marked when it is met first. */
@@ -81,6 +82,14 @@ static dem_status find_nodes(draft *s, const domain_cut *c, whole_lattice *w)
     return DEM_OK;
 }
 
+/* Without positions that are those at rest. */
+static dem_status copy_lattice(dem_lattice *out, const dem_lattice *whole, const lattice_cut *list)
+{
+    dem_lattice from = *whole;
+    if (from.position == from.x) from.position = NULL;
+    return lattice_cut_create(out, &from, list);
+}
+
 static dem_status cut_lattice(domain_cut *c, const draft *s, const whole_lattice *w)
 {
     const domain *d = c->model->domain;
@@ -90,7 +99,11 @@ static dem_status cut_lattice(domain_cut *c, const draft *s, const whole_lattice
     c->place = malloc((size_t)d->n_nodes * sizeof *c->place);
     CHECK_MEMORY(c->place);
     for (dem_index i = 0; i < d->n_nodes; i++) c->place[i] = w->lists.local[d->number[i]];
-    return lattice_cut_create(&c->around, w->of.lattice, &list);
+    if (s->arrays == NULL) return copy_lattice(&c->around, w->of.lattice, &list);
+    lattice_cut_shrink(s->arrays, &list);
+    c->around = *s->arrays;
+    *s->arrays = dem_lattice_empty();
+    return DEM_OK;
 }
 
 /* ---- public ---- */
@@ -149,11 +162,11 @@ static void number_by_whole(domain_cut *c, const whole_parts *of)
     renumber(c->triangle, c->around.n_triangles, of->number[LATTICE_TRIANGLES]);
 }
 
-dem_status domain_cut_fill(domain_cut *out, whole_lattice *whole, int rank)
+dem_status domain_cut_take(domain_cut *out, whole_lattice *whole, int rank, dem_lattice *lattice)
 {
     domain *d = out->model->domain = calloc(1, sizeof *d);
     touching_bodies *o = out->model->touching = calloc(1, sizeof *o);
-    draft s = {0};
+    draft s = {.arrays = lattice};
     CHECK_MEMORY(d != NULL ? o : NULL);
     o->domain = d;
     TRY(domain_create_within(d, &whole->lists, rank));
@@ -164,4 +177,9 @@ dem_status domain_cut_fill(domain_cut *out, whole_lattice *whole, int rank)
     free(s.node);
     number_by_whole(out, &whole->of);
     return status;
+}
+
+dem_status domain_cut_fill(domain_cut *out, whole_lattice *whole, int rank)
+{
+    return domain_cut_take(out, whole, rank, NULL);
 }

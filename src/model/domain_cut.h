@@ -14,7 +14,7 @@ typedef struct domain_cut {
     /* The domain but for its triangles, rigid bodies, an empty `touching`; no more, and on a rank that waits for it
      * nothing but zeros. */
     dem_model *model;
-    dem_lattice around;
+    dem_lattice around;  /* without positions where the motion starts at x */
     dem_index *place;    /* [nodes of the domain] their numbers in `around`, ascending */
     dem_index *triangle; /* [triangles of `around`] their numbers in the whole, ascending */
     double *given; /* [springs] what triangles give to them, where they may be coupled: found by domain_compile() */
@@ -26,6 +26,11 @@ dem_status domain_cut_open(domain_cut *out);
 /** Cuts it for a rank, which need not be this one, in a time that does not depend on the whole.
  *  \param out  an empty one  \return DEM_ERROR_MODEL if the rank owns no node, DEM_ERROR_MEMORY */
 dem_status domain_cut_fill(domain_cut *out, whole_lattice *whole, int rank);
+
+/** The same of a lattice from which no other domain is cut: its arrays become those about the domain. It is empty
+ *  afterwards, or as it was after a failure.
+ *  \param lattice  that of the whole */
+dem_status domain_cut_take(domain_cut *out, whole_lattice *whole, int rank, dem_lattice *lattice);
 
 /** Ends it, but for the model, where that is wanted; one that is all zeros, too. */
 void domain_cut_close(domain_cut *c, bool keeps_model);

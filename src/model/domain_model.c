@@ -157,12 +157,13 @@ static dem_status gather(surroundings *g, slab_rows *rows, const region_extent *
 }
 
 /* It is as a whole lattice for this rank; what is found there of other ranks' ghosts need not be all. */
-static dem_status cut_region(domain_cut *c, const ranks *r, const whole_parts *of, const domain_model_shares *shares)
+static dem_status cut_region(domain_cut *c, const ranks *r, const whole_parts *of, const domain_model_shares *shares,
+                             dem_lattice *lattice)
 {
     whole_lattice w = {0};
     dem_status status = whole_lattice_open(&w, of, r->size, shares);
     if (status == DEM_OK) status = domain_cut_open(c);
-    if (status == DEM_OK) status = domain_cut_fill(c, &w, r->rank);
+    if (status == DEM_OK) status = domain_cut_take(c, &w, r->rank, lattice);
     whole_lattice_close(&w);
     return status;
 }
@@ -174,7 +175,6 @@ static region_extent extent_of(const whole_parts *of, const ranks *r, const doma
                            .rings = whole_lattice_most_rings(of, r->size, shares) + 1};
 }
 
-/* Without an array of positions the motion starts at x. */
 static dem_status cut_slabs(domain_cut *c, slab_rows *rows, domain_model_shares shares, bool has_obstacles)
 {
     const rigid_bodies none = {0};
@@ -189,13 +189,10 @@ static dem_status cut_slabs(domain_cut *c, slab_rows *rows, domain_model_shares 
     surroundings g;
     dem_status status = gather(&g, rows, &extent);
     dem_lattice *l = &g.region.lattice;
-    const bool is_at_x = l->position == NULL;
-    if (is_at_x) l->position = l->x; /* neither is changed */
     of.lattice = l;
     for (int k = 0; k < LATTICE_ITEMS; k++) of.number[k] = g.region.number[k];
     shares.owner = g.owner;
-    if (status == DEM_OK) status = cut_region(c, r, &of, &shares);
-    if (is_at_x) l->position = NULL;
+    if (status == DEM_OK) status = cut_region(c, r, &of, &shares, l);
     region_free(&g.region);
     free(g.owner);
     return status;

@@ -13,7 +13,7 @@
 
 /** What it is made from, borrowed. */
 typedef struct whole_parts {
-    const dem_lattice *lattice; /* whose flags, bodies, positions and velocities are filled */
+    const dem_lattice *lattice; /* whose flags, bodies and velocities are filled */
     const rigid_bodies *rigid;
     dem_index n[LATTICE_ITEMS]; /* nodes, springs and triangles of the whole */
     /* [nodes], [springs], [triangles] of the lattice: numbers in the whole, ascending; all NULL: it is the whole */
