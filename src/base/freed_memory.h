@@ -14,9 +14,9 @@
 
 enum { FREED_MEMORY_NODES = 10000 };
 
-/** Gives freed memory back to the system, before or after the set-up of a run of so many nodes. Else the C library
- *  would make arrays of it of which a run uses few pages, and clear them whole. Of small bodies there is little, and
- *  they may be set up often. */
+/** Gives freed memory back to the system, before or after the set-up of a run of so many nodes, or of a part of it.
+ *  Else the C library would make arrays of it of which a run uses few pages, and clear them whole. Of small bodies
+ *  there is little, and they may be set up often. */
 static inline void freed_memory_return(dem_index n_nodes)
 {
 #ifdef __GLIBC__

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
+#include "base/freed_memory.h"
 #include "base/status.h"
 #include "lattice/lattice_cut.h"
 
@@ -162,6 +163,7 @@ static dem_status make(void *self, stress_rows *rows)
     if (status == DEM_OK) status = make_about(rows, &around, b, place);
     dem_lattice_free(&around);
     free(place);
+    freed_memory_return(b->model->lattice.n_nodes);
     return status;
 }
 
