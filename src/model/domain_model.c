@@ -24,6 +24,7 @@
 
 #include <stdlib.h>
 
+#include "base/freed_memory.h"
 #include "base/reduce.h"
 #include "base/status.h"
 #include "domain/region.h"
@@ -204,6 +205,7 @@ dem_status domain_model_gather(dem_model **out, slab_rows *rows, const domain_mo
     const ranks *r = rows->ranks;
     domain_cut c = {0};
     dem_status status = cut_slabs(&c, rows, *shares, n_obstacles > 0);
+    freed_memory_return(c.around.n_nodes);
     if (status == DEM_OK) status = domain_compile(&c, obstacles, n_obstacles, false);
     return finish(out, r, &c, status);
 }
