@@ -27,6 +27,7 @@ if [ ! -e "$root/made" ]; then
 fi
 mount -t proc proc "$root/proc"
 mount -t devpts devpts "$root/dev/pts"
+mount -t sysfs -o ro sysfs "$root/sys" # MPI looks there for cores
 cp /etc/resolv.conf /etc/hosts "$root/etc/"
 if [ -n "${PIP_CERT-}" ]; then cp "$PIP_CERT" "$root/root/certificates"; fi
 rm -rf "$root/root/dem"
