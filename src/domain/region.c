@@ -5,7 +5,6 @@
  * lose what others own and get what has come, one array after the other, so that nothing of the slab is there twice. */
 #include "domain/region.h"
 
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,9 +68,7 @@ static dem_index *count_of(dem_lattice *l, lattice_items of)
 /* Whether there is array k of lattice_arrays: those that are in rows, and those of corners. */
 static bool has_array(const draft *d, int k)
 {
-    const size_t offset = lattice_arrays[k].offset;
-    return offset == offsetof(dem_lattice, ends) || offset == offsetof(dem_lattice, triangles) ||
-           slab_rows_has(d->rows, k);
+    return lattice_array_is_corners(&lattice_arrays[k]) || slab_rows_has(d->rows, k);
 }
 
 /* Makes room for one more in all of them. */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "domain/slab_rows.h"
 
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -127,9 +126,7 @@ static dem_status find_arrays(slab_rows *s)
     presence p = {0};
     for (int k = 0; k < LATTICE_ARRAYS; k++) {
         const lattice_array *a = &lattice_arrays[k];
-        const bool is_corners =
-            a->offset == offsetof(dem_lattice, ends) || a->offset == offsetof(dem_lattice, triangles);
-        if (is_corners || lattice_count(s->lattice, a->of) == 0) continue;
+        if (lattice_array_is_corners(a) || lattice_count(s->lattice, a->of) == 0) continue;
         *(lattice_array_of(s->lattice, a) != NULL ? &p.has : &p.lacks) |= (uint32_t)1 << k;
     }
     s->ranks->reduce(s->ranks->self, &p, sizeof p, join_presence);

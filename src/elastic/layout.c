@@ -429,7 +429,8 @@ static dem_status allocate_order(builder *b)
     return DEM_OK;
 }
 
-static bool is_fit(const springs *s, dem_index span)
+/* Whether nodes stay as they are numbered, so many places from their neighbours. */
+static bool keeps_order(const springs *s, dem_index span)
 {
     return span <= usual_span || (least_rows * span <= s->n_nodes && renumber_is_by_rows(s));
 }
@@ -442,7 +443,7 @@ static dem_status choose_order(builder *b)
 {
     layout *l = b->l;
     dem_index span = renumber_span(b->s, NULL);
-    if (!is_fit(b->s, span)) {
+    if (!keeps_order(b->s, span)) {
         TRY(allocate_order(b));
         renumber_by_distance(b->s, l->order, b->place);
         const dem_index better = renumber_span(b->s, b->place);

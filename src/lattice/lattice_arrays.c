@@ -48,6 +48,11 @@ void lattice_array_put(dem_lattice *lattice, const lattice_array *array, void *i
     memcpy((char *)lattice + array->offset, &items, sizeof items);
 }
 
+bool lattice_array_is_corners(const lattice_array *array)
+{
+    return array->offset == offsetof(dem_lattice, ends) || array->offset == offsetof(dem_lattice, triangles);
+}
+
 dem_index lattice_count(const dem_lattice *lattice, lattice_items of)
 {
     if (of == LATTICE_NODES) return lattice->n_nodes;

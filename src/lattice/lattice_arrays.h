@@ -3,6 +3,8 @@
 #ifndef DEM_LATTICE_LATTICE_ARRAYS_H
 #define DEM_LATTICE_LATTICE_ARRAYS_H
 
+#include <stdbool.h>
+
 #include <dem/dem.h>
 
 typedef enum lattice_items { LATTICE_NODES, LATTICE_SPRINGS, LATTICE_TRIANGLES, LATTICE_ITEMS } lattice_items;
@@ -21,6 +23,9 @@ void *lattice_array_of(const dem_lattice *lattice, const lattice_array *array);
 
 /** Makes this memory that array. The lattice has the struct of this version. */
 void lattice_array_put(dem_lattice *lattice, const lattice_array *array, void *items);
+
+/** Whether its items are nodes: the ends of springs, and the corners of triangles. */
+bool lattice_array_is_corners(const lattice_array *array);
 
 /** How many nodes, springs or triangles a lattice has. */
 dem_index lattice_count(const dem_lattice *lattice, lattice_items of);

@@ -3,13 +3,11 @@
  * from their owners. */
 #include "model/slab_lattice.h"
 
-#include <stddef.h>
 #include <stdlib.h>
 
 #include "base/status.h"
 #include "base/vec2.h"
 #include "lattice/lattice.h"
-#include "lattice/lattice_arrays.h"
 #include "lattice/mesh_edges.h"
 #include "lattice/slab.h"
 #include "model/breakable_nodes.h"
@@ -48,25 +46,15 @@ static dem_status check_springs(const dem_slab *s)
 
 /* ---- what arrays stand for ---- */
 
-static dem_status add_zeros(dem_lattice *l, size_t offset)
-{
-    for (int k = 0; k < LATTICE_ARRAYS; k++) {
-        const lattice_array *a = &lattice_arrays[k];
-        if (a->offset != offset || lattice_array_of(l, a) != NULL) continue;
-        void *zeros = lattice_zeros(lattice_count(l, a->of), a->size);
-        CHECK(zeros != NULL, DEM_ERROR_MEMORY, "out of memory for a slab of %lld nodes", (long long)l->n_nodes);
-        lattice_array_put(l, a, zeros);
-    }
-    return DEM_OK;
-}
-
 /* A fixed node has no velocity. */
 static dem_status complete(dem_lattice *l)
 {
     const bool has_flags = l->flags != NULL;
-    TRY(add_zeros(l, offsetof(dem_lattice, flags)));
-    TRY(add_zeros(l, offsetof(dem_lattice, body)));
-    TRY(add_zeros(l, offsetof(dem_lattice, velocity)));
+    if (!has_flags) l->flags = lattice_zeros(l->n_nodes, sizeof *l->flags);
+    if (l->body == NULL) l->body = lattice_zeros(l->n_nodes, sizeof *l->body);
+    if (l->velocity == NULL) l->velocity = lattice_zeros(l->n_nodes, 2 * sizeof *l->velocity);
+    CHECK(l->flags && l->body && l->velocity, DEM_ERROR_MEMORY, "out of memory for a slab of %lld nodes",
+          (long long)l->n_nodes);
     if (!has_flags) TRY(mesh_edges_contact_flags(l->flags, l));
     for (dem_index i = 0; i < l->n_nodes; i++)
         if (l->flags[i] & DEM_NODE_FIXED) vec2_put(l->velocity, i, (vec2){0.0, 0.0});
