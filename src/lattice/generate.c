@@ -9,16 +9,8 @@
 #include <stdlib.h>
 
 #include "base/status.h"
-#include "base/vec2.h"
 #include "lattice/grid.h"
 #include "lattice/lattice.h"
-
-/* Edges included; the caller has added what rounding may take. */
-static bool is_in_disc(void *context, const double *x)
-{
-    const double *radius = context;
-    return vec2_norm(vec2_at(x, 0)) <= *radius;
-}
 
 static dem_status give(dem_lattice *out, const grid *g)
 {
@@ -57,7 +49,7 @@ dem_status dem_lattice_disc(dem_lattice *out, double radius, double spacing)
     TRY(grid_around_disc(&g, reach, spacing));
     dem_lattice lattice;
     TRY(grid_lattice(&lattice, &g));
-    const dem_status status = dem_lattice_cut(&lattice, is_in_disc, &reach);
+    const dem_status status = dem_lattice_cut(&lattice, grid_disc_has, &reach);
     if (status == DEM_OK)
         lattice_give(out, &lattice);
     else

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "base/status.h"
+#include "base/vec2.h"
 #include "lattice/lattice.h"
 
 static const double max_nodes = 1099511627776.0; /* 2^40: no byte count of an array overflows */
@@ -148,6 +149,12 @@ dem_status grid_around_disc(grid *out, double reach, double spacing)
     const dem_index columns = (dem_index)steps + 1, rows = (dem_index)strips;
     *out = (grid){.reach = 2 * columns, .first = -rows, .last = rows, .spacing = spacing};
     return DEM_OK;
+}
+
+/* The caller has added to the reach what rounding may take. */
+bool grid_disc_has(void *reach, const double *x)
+{
+    return vec2_norm(vec2_at(x, 0)) <= *(const double *)reach;
 }
 
 /* ---- lattice ---- */

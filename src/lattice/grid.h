@@ -26,6 +26,9 @@ dem_status grid_of_squares(grid *out, double width, double height, double spacin
  *  \param reach  m, as far as nodes are wanted */
 dem_status grid_around_disc(grid *out, double reach, double spacing);
 
+/** Whether a node of such a grid is in its disc, edge included.  \param reach  double, m */
+bool grid_disc_has(void *reach, const double *x);
+
 /** The number of nodes in rows first .. last, and of triangles between them; 0 for last < first. */
 dem_index grid_count_nodes(const grid *g);
 dem_index grid_count_triangles(const grid *g);

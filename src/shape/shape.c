@@ -3,6 +3,9 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
 
 static const double rounding = 1e-9; /* of the spacing */
 
@@ -27,9 +30,8 @@ static bool is_fitted(const shape *s)
     return s->outline.kind == DEM_OUTLINE_RECTANGLE || !s->squares;
 }
 
-static bool is_kept(void *context, const double *x)
+static bool is_kept(const shape *s, const double *x)
 {
-    const shape *s = context;
     return (is_fitted(s) || shape_outline_has(s, x)) && void_distance(s, x) > -shape_slack(s);
 }
 
@@ -95,68 +97,96 @@ bool shape_fits(const shape *s, const double x[2], double radius)
     return inside && void_distance(s, x) >= radius;
 }
 
-bool shape_takes(const shape *s, const outline *hole, const dem_lattice *lattice)
+bool shape_has_void(const shape *s, const outline *hole)
+{
+    return shape_outline_has(s, shape_void_point(hole));
+}
+
+const double *shape_void_point(const outline *hole)
+{
+    return hole->kind == DEM_OUTLINE_POLYGON ? hole->points : hole->centre;
+}
+
+bool shape_takes(const shape *s, const outline *hole, const dem_lattice *lattice, const bool *node)
 {
     for (dem_index i = 0; i < lattice->n_nodes; i++)
-        if (outline_distance(hole, lattice->x[2 * i], lattice->x[2 * i + 1]) <= -shape_slack(s)) return true;
+        if ((node == NULL || node[i]) &&
+            outline_distance(hole, lattice->x[2 * i], lattice->x[2 * i + 1]) <= -shape_slack(s))
+            return true;
     return false;
 }
 
-/* ---- lattice ---- */
+/* ---- grid ---- */
 
-static dem_status make_grid(dem_lattice *out, const shape *s, const double size[2], const double foot[2])
+static dem_status find_rows(shape_grid *out, const shape *s, const double size[2], const double foot[2])
 {
-    const dem_status status = s->squares ? dem_lattice_squares(out, size[0], size[1], s->spacing)
-                                         : dem_lattice_rectangle(out, size[0], size[1], s->spacing);
-    if (status == DEM_OK) dem_lattice_move(out, 0.0, foot);
-    return status;
+    *out = (shape_grid){.foot = {foot[0], foot[1]}};
+    return s->squares ? grid_of_squares(&out->rows, size[0], size[1], s->spacing)
+                      : grid_of_rectangle(&out->rows, size[0], size[1], s->spacing);
 }
 
 /* A grid that stands on the outline's lowest point and covers it, symmetric about the middle of its box. */
-static dem_status cover(dem_lattice *out, const shape *s)
+static dem_status cover(shape_grid *out, const shape *s)
 {
     double box[4];
     outline_box(&s->outline, box);
     const double size[2] = {box[2] - box[0] + 2.0 * s->spacing, box[3] - box[1] + s->spacing};
-    return make_grid(out, s, size, (double[2]){0.5 * (box[0] + box[2]), box[1]});
+    return find_rows(out, s, size, (double[2]){0.5 * (box[0] + box[2]), box[1]});
 }
 
-/* Triangles with a node in the centre. */
-static dem_status make_disc(dem_lattice *out, const shape *s, double radius)
+/* Triangles with a node in the centre: those of dem_lattice_disc(). */
+static dem_status find_disc(shape_grid *out, const shape *s, double radius)
 {
     const double *centre = s->outline.centre;
-    const dem_status status = dem_lattice_disc(out, radius, s->spacing);
-    if (status == DEM_OK && (centre[0] != 0.0 || centre[1] != 0.0)) dem_lattice_move(out, 0.0, centre);
-    return status;
+    *out = (shape_grid){.reach = radius + rounding * s->spacing, .foot = {centre[0], centre[1]}};
+    return grid_around_disc(&out->rows, out->reach, s->spacing);
 }
 
-static dem_status cover_disc(dem_lattice *out, const shape *s)
+static dem_status cover_disc(shape_grid *out, const shape *s)
 {
     const double reach = s->spacing * (floor(s->outline.radius / s->spacing + rounding) + 1.0);
     const double *centre = s->outline.centre;
-    if (!s->squares) return make_disc(out, s, s->outline.radius);
-    return make_grid(out, s, (double[2]){2.0 * reach, 2.0 * reach}, (double[2]){centre[0], centre[1] - reach});
+    if (!s->squares) return find_disc(out, s, s->outline.radius);
+    return find_rows(out, s, (double[2]){2.0 * reach, 2.0 * reach}, (double[2]){centre[0], centre[1] - reach});
 }
 
 /* With two spacings, or rows, about it; what is not smooth has a node, or a row, in the same place. */
-static dem_status cover_widely(dem_lattice *out, const shape *s)
+static dem_status cover_widely(shape_grid *out, const shape *s)
 {
     const double below = 2.0 * sqrt3_2 * s->spacing, around = 2.0 * s->spacing;
     double box[4];
     if (s->outline.kind == DEM_OUTLINE_DISC || s->outline.kind == DEM_OUTLINE_RING)
-        return make_disc(out, s, s->outline.radius + around);
+        return find_disc(out, s, s->outline.radius + around);
     outline_box(&s->outline, box);
     const double size[2] = {box[2] - box[0] + 2.0 * around, box[3] - box[1] + 2.5 * below};
-    return make_grid(out, s, size, (double[2]){0.5 * (box[0] + box[2]), box[1] - below});
+    return find_rows(out, s, size, (double[2]){0.5 * (box[0] + box[2]), box[1] - below});
 }
 
-dem_status shape_mesh(dem_lattice *out, const shape *s)
+dem_status shape_find_grid(shape_grid *out, const shape *s)
 {
     const outline *o = &s->outline;
     if (s->smooth) return cover_widely(out, s);
     if (o->kind == DEM_OUTLINE_DISC || o->kind == DEM_OUTLINE_RING) return cover_disc(out, s);
-    return is_fitted(s) ? make_grid(out, s, o->size, (double[2]){o->centre[0], o->centre[1] - 0.5 * o->size[1]})
+    return is_fitted(s) ? find_rows(out, s, o->size, (double[2]){o->centre[0], o->centre[1] - 0.5 * o->size[1]})
                         : cover(out, s);
+}
+
+/* ---- lattice ---- */
+
+dem_status shape_mesh(dem_lattice *out, const shape *s)
+{
+    shape_grid g;
+    dem_lattice lattice;
+    TRY(shape_find_grid(&g, s));
+    TRY(grid_lattice(&lattice, &g.rows));
+    const dem_status status = g.reach > 0.0 ? dem_lattice_cut(&lattice, grid_disc_has, &g.reach) : DEM_OK;
+    if (status == DEM_OK) {
+        dem_lattice_move(&lattice, 0.0, g.foot);
+        *out = lattice;
+    } else {
+        dem_lattice_free(&lattice);
+    }
+    return status;
 }
 
 void shape_keep_cells(bool *keep, dem_index n_triangles)
@@ -164,20 +194,24 @@ void shape_keep_cells(bool *keep, dem_index n_triangles)
     for (dem_index t = 0; t + 1 < n_triangles; t += 2) keep[t] = keep[t + 1] = keep[t] != 0 && keep[t + 1] != 0;
 }
 
-static dem_status cut_cells(dem_lattice *lattice, const shape *s)
+void shape_mark(bool *keep, bool *node, const shape *s, const dem_lattice *lattice)
 {
-    const dem_index n = lattice->n_triangles;
-    bool *node = malloc((size_t)lattice->n_nodes), *keep = malloc((size_t)n);
-    dem_status status = node != NULL && keep != NULL ? DEM_OK : DEM_ERROR_MEMORY;
-    shape cut = *s;
-    for (dem_index i = 0; status == DEM_OK && i < lattice->n_nodes; i++)
-        node[i] = is_kept(&cut, lattice->x + 2 * i) != 0;
-    for (dem_index t = 0; status == DEM_OK && t < n; t++) {
+    for (dem_index i = 0; i < lattice->n_nodes; i++) node[i] = node[i] && is_kept(s, lattice->x + 2 * i);
+    for (dem_index t = 0; t < lattice->n_triangles; t++) {
         const dem_index *corner = lattice->triangles + 3 * t;
         keep[t] = node[corner[0]] && node[corner[1]] && node[corner[2]];
     }
+    if (s->squares) shape_keep_cells(keep, lattice->n_triangles);
+}
+
+static dem_status cut(dem_lattice *lattice, const shape *s)
+{
+    bool *node = malloc((size_t)lattice->n_nodes * sizeof *node),
+         *keep = malloc((size_t)lattice->n_triangles * sizeof *keep);
+    dem_status status = node != NULL && keep != NULL ? DEM_OK : DEM_ERROR_MEMORY;
     if (status == DEM_OK) {
-        shape_keep_cells(keep, n);
+        memset(node, true, (size_t)lattice->n_nodes * sizeof *node);
+        shape_mark(keep, node, s, lattice);
         status = dem_lattice_trim(lattice, keep);
     }
     free(node);
@@ -187,7 +221,5 @@ static dem_status cut_cells(dem_lattice *lattice, const shape *s)
 
 dem_status shape_cut(dem_lattice *lattice, const shape *s)
 {
-    shape cut = *s;
-    if (s->squares) return cut_cells(lattice, s);
-    return is_fitted(s) && s->n_voids == 0 ? DEM_OK : dem_lattice_cut(lattice, is_kept, &cut);
+    return is_fitted(s) && s->n_voids == 0 ? DEM_OK : cut(lattice, s);
 }

@@ -7,6 +7,7 @@
 
 #include <dem/dem.h>
 
+#include "lattice/grid.h"
 #include "shape/mask.h"
 #include "shape/outline.h"
 
@@ -41,8 +42,22 @@ double shape_distance(const shape *s, const double x[2]);
 /* Whether a disc about x is all material, m. */
 bool shape_fits(const shape *s, const double x[2], double radius);
 
-/* Whether one of its voids takes a node of a lattice. */
-bool shape_takes(const shape *s, const outline *hole, const dem_lattice *lattice);
+/* Whether a void lies in the outline, as far as a point of it tells. */
+bool shape_has_void(const shape *s, const outline *hole);
+const double *shape_void_point(const outline *hole);
+
+/* Whether one of its voids takes a node of a lattice.  \param node  [n_nodes] those that are there; NULL: all */
+bool shape_takes(const shape *s, const outline *hole, const dem_lattice *lattice, const bool *node);
+
+/* What its lattice is cut out of. */
+typedef struct shape_grid {
+    grid rows;
+    double reach;   /* m, of a disc about the origin of the grid, and only what is in it is made; 0: all is */
+    double foot[2]; /* m, where this origin is */
+} shape_grid;
+
+/* \return DEM_ERROR_MODEL if it had too many nodes */
+dem_status shape_find_grid(shape_grid *out, const shape *s);
 
 /* Of each cell of a lattice of squares keeps both triangles or none.  \param keep [n_triangles] 0 or 1 */
 void shape_keep_cells(bool *keep, dem_index n_triangles);
@@ -51,6 +66,12 @@ void shape_keep_cells(bool *keep, dem_index n_triangles);
  * shape it covers all, with two spacings about it. Caller owns *out.
  * \return DEM_ERROR_MODEL if it had too many nodes */
 dem_status shape_mesh(dem_lattice *out, const shape *s);
+
+/* Marks what of a lattice is neither beyond the outline nor in a void, whole cells of squares: nodes on the edge of one
+ * stay.
+ * \param[out] keep      [n_triangles]
+ * \param[in,out] node  [n_nodes] those that are there; those of them that stay, but for whole cells */
+void shape_mark(bool *keep, bool *node, const shape *s, const dem_lattice *lattice);
 
 /* Takes out what is beyond the outline or in a void, whole cells of squares: nodes on the edge of one stay.
  * \return DEM_ERROR_MODEL if nothing is left */

@@ -35,6 +35,20 @@ dem_status shape_input_read(dem_shape *ours, const dem_shape *theirs)
     return DEM_OK;
 }
 
+dem_status shape_input_refuse_void(const dem_shape *ours, const shape *s, dem_index k)
+{
+    const double *inside = shape_void_point(&s->voids[k]);
+    return status_fail(DEM_ERROR_MODEL, "void %lld takes no node of %s: it lies at (%g, %g) m", (long long)k,
+                       shape_input_name(ours), inside[0], inside[1]);
+}
+
+dem_status shape_input_check_size(const dem_shape *ours, dem_status made)
+{
+    CHECK(made != DEM_ERROR_MODEL, DEM_ERROR_ARGUMENT, "%s would have more nodes than 2^40 with the spacing %g m",
+          shape_input_name(ours), ours->spacing);
+    return made;
+}
+
 /* ---- body ---- */
 
 /* The frame of an image stands on the origin. */

@@ -22,4 +22,11 @@ dem_status shape_input_check_edges(const shape *s);
 /* By which messages call it. */
 const char *shape_input_name(const dem_shape *ours);
 
+/* The failure that void k, one of the caller's, takes nothing of the body. */
+dem_status shape_input_refuse_void(const dem_shape *ours, const shape *s, dem_index k);
+
+/* Names the shape where it would have too many nodes.
+ * \param made  what shape_find_grid(), or shape_mesh(), has returned \return the same, or DEM_ERROR_ARGUMENT */
+dem_status shape_input_check_size(const dem_shape *ours, dem_status made);
+
 #endif

@@ -21,11 +21,9 @@ static dem_status check_voids(const shape *s, const dem_shape *ours, const dem_l
 {
     for (dem_index k = 0; k < ours->n_voids; k++) {
         const outline *hole = &s->voids[k];
-        const double *inside = hole->kind == DEM_OUTLINE_POLYGON ? hole->points : hole->centre;
-        if (shape_outline_has(s, inside) || shape_takes(s, hole, lattice)) continue;
+        if (shape_has_void(s, hole) || shape_takes(s, hole, lattice, NULL)) continue;
         report->idle_void = k;
-        return status_fail(DEM_ERROR_MODEL, "void %lld takes no node of %s: it lies at (%g, %g) m", (long long)k,
-                           shape_input_name(ours), inside[0], inside[1]);
+        return shape_input_refuse_void(ours, s, k);
     }
     return DEM_OK;
 }
@@ -45,17 +43,14 @@ static dem_status cut(dem_lattice *lattice, const shape *s, dem_shape_report *re
 /* The messages of what is below speak of rectangles around the shape. */
 static dem_status triangulate(dem_lattice *lattice, const shape *s, const dem_shape *ours, dem_shape_report *report)
 {
-    const char *name = shape_input_name(ours);
-    dem_status status = shape_mesh(lattice, s);
-    CHECK(status != DEM_ERROR_MODEL, DEM_ERROR_ARGUMENT, "%s would have more nodes than 2^40 with the spacing %g m",
-          name, s->spacing);
+    dem_status status = shape_input_check_size(ours, shape_mesh(lattice, s));
     if (status == DEM_OK && ours->numbered) status = triangle_numbers_add(lattice);
     if (status == DEM_OK) status = check_voids(s, ours, lattice, report);
     if (status != DEM_OK) return status;
     const dem_index n = lattice->n_nodes;
     status = cut(lattice, s, report);
-    CHECK(status != DEM_ERROR_MODEL, DEM_ERROR_MODEL, "%s: its outline, voids and pores leave none of %lld nodes", name,
-          (long long)n);
+    CHECK(status != DEM_ERROR_MODEL, DEM_ERROR_MODEL, "%s: its outline, voids and pores leave none of %lld nodes",
+          shape_input_name(ours), (long long)n);
     CHECK(status != DEM_ERROR_MEMORY, DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)n);
     return status;
 }

@@ -55,7 +55,7 @@ TEST(what_voids_share_counts_once)
 /* Forty discs at random places, against the share of a grid of points that lies in the material. */
 TEST(many_overlapping_voids_agree_with_counted_points)
 {
-    enum { n = 40, grid = 1500 };
+    enum { n = 40, side = 1500 };
     outline voids[n];
     unsigned random = 1;
     long count = 0;
@@ -65,13 +65,13 @@ TEST(many_overlapping_voids_agree_with_counted_points)
         voids[k] =
             (outline){.kind = DEM_OUTLINE_DISC, .centre = {10.0 * u[0] - 5.0, 10.0 * u[1] - 5.0}, .radius = 0.3 + u[2]};
     }
-    for (int k = 0; k < grid * grid; k++) {
-        const double x = 10.0 * (k % grid + 0.5) / grid - 5.0, y = 10.0 * (k / grid + 0.5) / grid - 5.0; /* NOLINT */
+    for (int k = 0; k < side * side; k++) {
+        const double x = 10.0 * (k % side + 0.5) / side - 5.0, y = 10.0 * (k / side + 0.5) / side - 5.0; /* NOLINT */
         double depth = -outline_distance(&disc, x, y);
         for (int v = 0; v < n && depth > 0.0; v++) depth = fmin(depth, outline_distance(&voids[v], x, y));
         count += depth > 0.0;
     }
-    const double counted = 100.0 * (double)count / grid / grid;
+    const double counted = 100.0 * (double)count / side / side;
     assert_true(counted > 10.0 && counted < 60.0);
     assert_close(less(disc, voids, n), counted, 5e-4 * 78.5); /* counting has a random error of 1e-4 */
 }

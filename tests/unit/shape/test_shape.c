@@ -101,10 +101,10 @@ TEST(a_void_takes_nodes_only_where_they_are)
     shape s = make_rectangle();
     CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_int_equal(shape_mesh(&lattice, &s), DEM_OK);
-    assert_true(shape_takes(&s, &round_void, &lattice));
-    assert_true(shape_takes(&s, &square_void, &lattice));
-    assert_false(shape_takes(&s, &between, &lattice));
-    assert_false(shape_takes(&s, &outside, &lattice));
+    assert_true(shape_takes(&s, &round_void, &lattice, NULL));
+    assert_true(shape_takes(&s, &square_void, &lattice, NULL));
+    assert_false(shape_takes(&s, &between, &lattice, NULL));
+    assert_false(shape_takes(&s, &outside, &lattice, NULL));
     assert_true(shape_outline_has(&s, between.centre));
     assert_true(shape_outline_has(&s, edge));
     assert_false(shape_outline_has(&s, outside.centre));
