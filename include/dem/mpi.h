@@ -84,8 +84,8 @@ DEM_API dem_status dem_model_create_mpi_for(dem_model **out, const dem_lattice *
  *  touch obstacles. Springs and triangles are numbered slab by slab, each in the one that owns the lowest of its nodes,
  *  in the order that they have there. That is the order of lattices which dem/slab.h makes slabs of: runs have the bits
  *  of one process that has such a lattice.
- *  For one elastic body of triangles that does not break and does not touch itself: others are refused. Numbers of
- *  nodes, springs and triangles in messages about a slab are its own.
+ *  For one elastic body of triangles, connected or not, that does not break and does not touch itself: others are
+ *  refused. Numbers of nodes, springs and triangles in messages about a slab are its own.
  *  \param slab     of this rank. It is taken over, so that nobody has it beside the model: it is empty afterwards,
  *                  whatever is returned
  *  \param options  as dem_model_create_mpi_for() has them; NULL: any without contact of bodies

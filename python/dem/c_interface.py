@@ -926,22 +926,26 @@ class dem_mesh(SizedStructure):
 
 class dem_slab(SizedStructure):
     """What a range of the nodes of a whole lattice has of it: these nodes, its *own* ones, the nodes that share a
-    triangle with one of them, its *rim*, and the triangles at own nodes. Both have the order of the whole, without
-    gaps. The lattice is assembled and edited as any other, by functions that look at nodes and triangles one by one
-    (dem_lattice_assemble(), dem_lattice_move(), dem_lattice_launch(), dem_lattice_exclude(); dem_lattice_weibull()
-    with numbers). Own nodes, and springs and triangles at them, then have the bits that they have in the whole. Of
-    the rim only places have: masses, flags, and springs between two of its nodes, lack what other ranges have of
-    them. Numbers in messages are those of the slab.
+    triangle with one of them, its *rim*, and the triangles at own nodes. Both have the order of the whole, own nodes
+    and triangles without gaps. The lattice is assembled and edited as any other, by functions that look at nodes and
+    triangles one by one (dem_lattice_assemble(), dem_lattice_move(), dem_lattice_launch(), dem_lattice_exclude();
+    dem_lattice_weibull() with numbers). Own nodes, and springs and triangles at them, then have the bits that they
+    have in the whole. Of the rim only places have: masses, flags, and springs between two of its nodes, lack what
+    other ranges have of them. Numbers in messages are those of the slab.
     struct_size: set by dem_slab_empty()
     n_nodes: of the whole,
     n_triangles: likewise
-    first_node: the number in the whole of node 0 of `lattice`; node i is first_node + i there
-    first_triangle: the same of its triangles
+    first_node: the number in the whole of the first own node; the others follow it there
+    first_triangle: the number in the whole of triangle 0 of `lattice`; the others follow it there
     first_own: in `lattice`, of the n_own nodes that are own ones, one behind the other
     n_own: > 0
-    lattice: to be freed with dem_slab_free()"""
+    rim: [lattice.n_nodes - n_own] numbers in the whole of the other nodes of `lattice`, ascending
+    rim_boundary: [the same] 1: on the boundary of the triangles of the whole, where dem_slab_jitter() leaves it; NULL:
+        not known
+    lattice: all is to be freed with dem_slab_free()"""
     _fields_ = [("struct_size", c_size_t), ("n_nodes", c_int64), ("n_triangles", c_int64), ("first_node", c_int64),
-                ("first_triangle", c_int64), ("first_own", c_int64), ("n_own", c_int64), ("lattice", dem_lattice)]
+                ("first_triangle", c_int64), ("first_own", c_int64), ("n_own", c_int64), ("rim", POINTER(c_int64)),
+                ("rim_boundary", POINTER(c_ubyte)), ("lattice", dem_lattice)]
 
 
 def dem_slab_default() -> dem_slab:
@@ -1665,20 +1669,30 @@ FUNCTIONS: dict[str, tuple[Any, list[Any], str]] = {  # result, arguments, text
         """dem_slab_rectangle(out, width, height, spacing, part, n_parts)
         Of n_parts slabs of dem_lattice_rectangle(), the lowest first, the one with number `part`. Each has the same
         number of rows, or one more; own nodes are whole rows, and the rim is a row below them and one above. No more
-        than these is made. Assembled by dem_lattice_assemble().
+        than these, and for a moment a further row on each side, is made. Assembled by dem_lattice_assemble().
         out from dem_slab_empty(); overwritten, not freed; caller owns it
         part 0 <= part < n_parts
         Returns as dem_lattice_rectangle(); DEM_ERROR_MODEL for more parts than rows of nodes"""),
     "dem_slab_squares": (c_int, [POINTER(dem_slab), c_double, c_double, c_double, c_int64, c_int64],
         """dem_slab_squares(out, width, height, spacing, part, n_parts)
         The same of dem_lattice_squares(). Assembled by dem_lattice_assemble_squares()."""),
+    "dem_slab_shape": (c_int, [POINTER(dem_slab), POINTER(dem_shape), c_int64, c_int64],
+        """dem_slab_shape(out, shape, part, n_parts)
+        The same of dem_shape_lattice(): whole rows of what is left where the outline, voids and pores have cut the
+        grid, about as many nodes in each slab. Parts of the body that are not connected stay, as they do there. To
+        number its nodes a slab counts what is left of the rows of all: it looks at each place, as cutting the whole
+        does, but at some rows at a time. Its own rows it makes from one end of the grid to the other, before they
+        are cut.
+        shape with a stepped edge, and not numbered: for both something of the whole is needed
+        Returns as dem_shape_lattice(), also where a void lies wholly outside of the body; DEM_ERROR_MODEL for more
+        parts than rows in which something is left"""),
     "dem_slab_jitter": (c_int, [POINTER(dem_slab), c_double, c_uint64],
         """dem_slab_jitter(slab, radius, seed)
         Moves nodes as dem_lattice_jitter() moves those of the whole. For slabs as they are made, in which then no
         triangle would keep less than a tenth of its area.
         radius m, 0 to 0.3 of the shortest side of a triangle
-        Returns DEM_ERROR_ARGUMENT, also for a slab that has no place in a whole; DEM_ERROR_MODEL for one that has
-        springs; DEM_ERROR_MEMORY; then nothing has changed"""),
+        Returns DEM_ERROR_ARGUMENT, also for a slab that has no place in a whole, or without rim_boundary;
+        DEM_ERROR_MODEL for one that has springs; DEM_ERROR_MEMORY; then nothing has changed"""),
     "dem_reader_open": (c_int, [POINTER(POINTER(dem_reader)), c_char_p],
         """dem_reader_open(out, path)
 

@@ -260,7 +260,7 @@ static dem_status list_touching(draft *d)
     const slab_rows *s = d->rows;
     for (dem_index i = 0; i < s->lattice->n_nodes; i++)
         if (slab_rows_owns(s, i) && (s->lattice->flags[i] & DEM_NODE_CONTACT) != 0 &&
-            !add(&d->wanted, s->first_node + i))
+            !add(&d->wanted, slab_rows_number(s, i)))
             return lacks_memory();
     return DEM_OK;
 }
@@ -371,15 +371,15 @@ static dem_index node_in_region(const draft *d, dem_index n_before, dem_index nu
     return k < n_before ? k : k + own[1] - own[0];
 }
 
-/* \param first  the number in the whole of node 0 of a lattice */
-static void replace_corners(const draft *d, dem_index first, const dem_lattice *l)
+/* \param rows  the lattice is that of the slab; NULL: corners are numbers of the whole */
+static void replace_corners(const draft *d, const slab_rows *rows, const dem_lattice *l)
 {
     const dem_index n_before = sorted_first(d->known.list, d->known.n, own_of(d)[0]);
     for (int of = LATTICE_SPRINGS; of < LATTICE_ITEMS; of++) {
         const lattice_items items = (lattice_items)of;
         dem_index *corner = corners_of(l, items);
         for (dem_index k = 0; k < arity_of(items) * lattice_count(l, items); k++)
-            corner[k] = node_in_region(d, n_before, first + corner[k]);
+            corner[k] = node_in_region(d, n_before, rows != NULL ? slab_rows_number(rows, corner[k]) : corner[k]);
     }
 }
 
@@ -396,7 +396,7 @@ static bool is_entire(const dem_lattice *l, lattice_items of, dem_index k)
 static dem_index number_in_slab(const slab_rows *s, lattice_items of, dem_index k)
 {
     if (of != LATTICE_NODES) return s->number[of][k];
-    return slab_rows_owns(s, k) ? s->first_node + k : -1;
+    return slab_rows_owns(s, k) ? slab_rows_number(s, k) : -1;
 }
 
 static dem_status list_owned(order *o, const slab_rows *s, lattice_items of)
@@ -462,8 +462,8 @@ static dem_status take_array(region *g, draft *d, const order *o, const lattice_
 
 static dem_status list_all(region *g, draft *d, order *o)
 {
-    replace_corners(d, 0, &d->found);
-    replace_corners(d, d->rows->first_node, d->rows->lattice);
+    replace_corners(d, NULL, &d->found);
+    replace_corners(d, d->rows, d->rows->lattice);
     for (int of = 0; of < LATTICE_ITEMS; of++) {
         TRY(list_owned(&o[of], d->rows, (lattice_items)of));
         TRY(list_others(&o[of], d, (lattice_items)of));

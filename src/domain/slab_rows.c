@@ -17,10 +17,28 @@ typedef struct place {
     dem_index first, n[LATTICE_ITEMS]; /* number of the first own node; own nodes, owned springs, triangles */
 } place;
 
+/* Behind the last own node. */
+static dem_index end_own(const slab_rows *s)
+{
+    const dem_index *own = s->first + s->ranks->rank;
+    return s->first_own + (own[1] - own[0]);
+}
+
 bool slab_rows_owns(const slab_rows *s, dem_index i)
 {
-    const dem_index number = s->first_node + i, *own = s->first + s->ranks->rank;
-    return number >= own[0] && number < own[1];
+    return i >= s->first_own && i < end_own(s);
+}
+
+dem_index slab_rows_number(const slab_rows *s, dem_index i)
+{
+    if (slab_rows_owns(s, i)) return s->first[s->ranks->rank] + (i - s->first_own);
+    return s->rim[i < s->first_own ? i : i - (end_own(s) - s->first_own)];
+}
+
+/* The own node of the slab that has a number in the whole. */
+static dem_index own_node(const slab_rows *s, dem_index number)
+{
+    return s->first_own + (number - s->first[s->ranks->rank]);
 }
 
 int slab_rows_owner(const slab_rows *s, dem_index number)
@@ -51,7 +69,7 @@ static dem_status make_rows(slab_rows *s, const dem_slab *slab, place *own)
           "out of memory for a slab of %lld nodes", (long long)l->n_nodes);
     TRY(node_rows_create(&s->springs, l->ends, 2, l->n_springs, l->n_nodes));
     TRY(node_rows_create(&s->triangles, l->triangles, 3, l->n_triangles, l->n_nodes));
-    own->first = slab->first_node + slab->first_own;
+    own->first = slab->first_node;
     own->n[LATTICE_NODES] = slab->n_own;
     own->n[LATTICE_SPRINGS] = number_owned(s->number[LATTICE_SPRINGS], slab, l->ends, 2, l->n_springs);
     own->n[LATTICE_TRIANGLES] = number_owned(s->number[LATTICE_TRIANGLES], slab, l->triangles, 3, l->n_triangles);
@@ -156,7 +174,7 @@ static dem_status complete(slab_rows *s, const dem_slab *slab, const place *own)
 dem_status slab_rows_create(slab_rows *out, const ranks *r, dem_slab *slab)
 {
     place own;
-    *out = (slab_rows){.ranks = r, .lattice = &slab->lattice, .first_node = slab->first_node};
+    *out = (slab_rows){.ranks = r, .lattice = &slab->lattice, .first_own = slab->first_own, .rim = slab->rim};
     TRY(reduce_status(r, make_rows(out, slab, &own), 0.0));
     return complete(out, slab, &own);
 }
@@ -224,7 +242,7 @@ static bool pack_tuples(const slab_rows *s, const tuples *t, dem_index i, bundle
     bool has_room = true;
     for (int32_t p = t->rows->row[i]; p < t->rows->row[i + 1]; p++)
         for (int c = 0; has_room && c < t->arity; c++) {
-            const dem_index corner = t->corner[t->arity * t->rows->list[p] + c], number = s->first_node + corner;
+            const dem_index corner = t->corner[t->arity * t->rows->list[p] + c], number = slab_rows_number(s, corner);
             has_room = corner == i || bundle_add(to, &number, sizeof number);
         }
     return has_room;
@@ -237,7 +255,7 @@ static bool pack_owned(const slab_rows *s, const tuples *t, dem_index i, bundle 
         const dem_index k = t->rows->list[p];
         dem_index head[4] = {s->number[t->of][k]}; /* and the nodes */
         if (!is_owned_by(t, k, i)) continue;
-        for (int c = 0; c < t->arity; c++) head[1 + c] = s->first_node + t->corner[t->arity * k + c];
+        for (int c = 0; c < t->arity; c++) head[1 + c] = slab_rows_number(s, t->corner[t->arity * k + c]);
         has_room = bundle_add(to, head, (size_t)(1 + t->arity) * sizeof *head) && pack_items(s, t->of, k, to);
     }
     return has_room;
@@ -245,7 +263,7 @@ static bool pack_owned(const slab_rows *s, const tuples *t, dem_index i, bundle 
 
 bool slab_rows_pack_next(const slab_rows *s, dem_index number, bundle *to)
 {
-    const dem_index i = number - s->first_node;
+    const dem_index i = own_node(s, number);
     const tuples springs = springs_of(s), triangles = triangles_of(s);
     const dem_index n = count_next(&springs, i) + count_next(&triangles, i);
     return bundle_add(to, &n, sizeof n) && pack_tuples(s, &springs, i, to) && pack_tuples(s, &triangles, i, to);
@@ -253,7 +271,7 @@ bool slab_rows_pack_next(const slab_rows *s, dem_index number, bundle *to)
 
 bool slab_rows_pack(const slab_rows *s, dem_index number, bundle *to)
 {
-    const dem_index i = number - s->first_node;
+    const dem_index i = own_node(s, number);
     const tuples springs = springs_of(s), triangles = triangles_of(s);
     const dem_index head[] = {number, count_owned(&springs, i), count_owned(&triangles, i)};
     return bundle_add(to, head, sizeof head) && slab_rows_pack_next(s, number, to) &&

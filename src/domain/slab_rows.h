@@ -13,7 +13,8 @@
 typedef struct slab_rows {
     const ranks *ranks;
     dem_lattice *lattice;             /* of the slab, borrowed */
-    dem_index first_node;             /* the number in the whole of its node 0 */
+    dem_index first_own;              /* of the slab's nodes, the first own one */
+    const dem_index *rim;             /* numbers in the whole of those that are not own, borrowed */
     dem_index *first;                 /* [ranks + 1] the number of the first own node of each rank, and behind all */
     dem_index n[LATTICE_ITEMS];       /* of the whole */
     dem_index *number[LATTICE_ITEMS]; /* [springs], [triangles] in the whole; -1: owned by another rank. Not of nodes */
@@ -30,6 +31,9 @@ void slab_rows_free(slab_rows *s);
 
 /** The rank that owns node `number` of the whole. */
 int slab_rows_owner(const slab_rows *s, dem_index number);
+
+/** The number in the whole of node i of the slab of this rank. */
+dem_index slab_rows_number(const slab_rows *s, dem_index i);
 
 /** Whether this rank owns node i of its slab. */
 bool slab_rows_owns(const slab_rows *s, dem_index i);

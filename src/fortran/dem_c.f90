@@ -1287,8 +1287,9 @@ module dem_c
   ! ---- dem/slab.h ----------------------------------------------------------------------------------------------------
 
   type, bind(c) :: dem_slab
-    integer(c_size_t) :: struct_size = 272
+    integer(c_size_t) :: struct_size = 288
     integer(dem_index) :: n_nodes = 0, n_triangles = 0, first_node = 0, first_triangle = 0, first_own = 0, n_own = 0
+    type(c_ptr) :: rim = c_null_ptr, rim_boundary = c_null_ptr
     type(dem_lattice) :: lattice
   end type
 
@@ -1310,6 +1311,13 @@ module dem_c
       import
       type(dem_slab), intent(inout) :: out
       real(c_double), value :: width, height, spacing
+      integer(dem_index), value :: part, n_parts
+    end function
+
+    integer(dem_status) function dem_slab_shape(out, shape, part, n_parts) bind(c)
+      import
+      type(dem_slab), intent(inout) :: out
+      type(dem_shape), intent(in) :: shape
       integer(dem_index), value :: part, n_parts
     end function
 

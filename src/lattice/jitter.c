@@ -65,18 +65,28 @@ static void move_back(const dem_lattice *l, double *x, unsigned char *marked)
         }
 }
 
-/* Nodes of the boundary stay. An edge both of whose ends are on one side of the part is none of it. */
+static bool is_rim(const jitter_part *part, dem_index i)
+{
+    return i < part->begin || i >= part->end;
+}
+
+/* Where a node is among those of the rim. */
+static dem_index rim_place(const jitter_part *part, dem_index i)
+{
+    return i < part->begin ? i : i - (part->end - part->begin);
+}
+
+static dem_index number_of(const jitter_part *part, dem_index i)
+{
+    return is_rim(part, i) ? part->rim[rim_place(part, i)] : part->first + (i - part->begin);
+}
+
+/* Nodes of the boundary stay. Edges at nodes that have all of their triangles tell of these. */
 static dem_status mark_boundary(unsigned char *stays, const dem_lattice *l, const jitter_part *part)
 {
-    mesh_edges s;
-    TRY(mesh_edges_create(&s, l));
+    TRY(mesh_edges_contact_flags(stays, l));
     for (dem_index i = 0; i < l->n_nodes; i++)
-        for (dem_index p = s.row[i]; p < s.row[i + 1]; p++) {
-            const dem_index j = s.list[p].upper; /* i < j */
-            const bool is_outside = j < part->begin || i >= part->end;
-            if (!is_outside && mesh_edges_is_boundary(&s, i, p)) stays[i] = stays[j] = 1;
-        }
-    mesh_edges_free(&s);
+        if (is_rim(part, i)) stays[i] = part->rim_boundary[rim_place(part, i)];
     return DEM_OK;
 }
 
@@ -98,7 +108,7 @@ dem_status jitter_move(dem_lattice *lattice, const jitter_part *part, double rad
     dem_status status = stays != NULL && x != NULL ? mark_boundary(stays, lattice, part)
                                                    : status_fail(DEM_ERROR_MEMORY, "out of memory");
     for (dem_index i = 0; status == DEM_OK && i < lattice->n_nodes; i++) {
-        const vec2 shift = stays[i] != 0 ? (vec2){0.0, 0.0} : random_shift(seed, part->first + i, radius);
+        const vec2 shift = stays[i] != 0 ? (vec2){0.0, 0.0} : random_shift(seed, number_of(part, i), radius);
         vec2_put(x, i, vec2_add(vec2_at(lattice->x, i), shift));
     }
     if (status == DEM_OK) {

@@ -5,11 +5,13 @@
 
 #include <dem/dem.h>
 
-/** Where a part stands in a whole lattice. The whole goes on beside the nodes before `begin`, and from `end` on:
- *  between two of either no edge is taken for one of its boundary. */
+/** Where a part stands in a whole lattice. Nodes `begin` to `end` have all of their triangles; the others are its
+ *  rim. */
 typedef struct jitter_part {
-    dem_index first; /* the number in the whole of node 0 */
+    dem_index first; /* the number in the whole of node `begin`, which those up to `end` follow */
     dem_index begin, end;
+    const dem_index *rim;              /* [rim] numbers in the whole of the others, in their order */
+    const unsigned char *rim_boundary; /* [rim] 1: a node is on the boundary of the whole */
 } jitter_part;
 
 /** Moves the nodes of a part as dem_lattice_jitter() moves those of the whole, where no triangle is squeezed.

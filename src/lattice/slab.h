@@ -5,6 +5,12 @@
 
 #include <dem/dem.h>
 
+/** Checks what a slab is asked for by.  \return DEM_ERROR_ARGUMENT */
+dem_status slab_check_out(const dem_slab *out, dem_index part, dem_index n_parts);
+
+/** Hands a slab over to a caller, as far as the lattice of the caller's goes. */
+void slab_give(dem_slab *out, const dem_slab *made);
+
 /** Checks that a slab has a place in a whole, and that its node numbers are valid, and takes its arrays over: theirs,
  *  of whatever version, is empty afterwards.
  *  \return DEM_ERROR_ARGUMENT, DEM_ERROR_MODEL; then nothing has changed */

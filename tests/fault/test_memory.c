@@ -72,6 +72,19 @@ static dem_status build_squares(void)
     return status;
 }
 
+static dem_status build_slab(void)
+{
+    const dem_outline disc = {.struct_size = sizeof disc, .kind = DEM_OUTLINE_DISC, .radius = 0.03},
+                      hole = {.struct_size = sizeof hole, .kind = DEM_OUTLINE_DISC, .radius = 0.005};
+    const dem_shape shape = {
+        .struct_size = sizeof shape, .outline = &disc, .spacing = 0.01, .n_voids = 1, .voids = &hole};
+    CLEANUP(dem_slab_free) dem_slab slab = dem_slab_empty();
+    dem_status status = dem_slab_shape(&slab, &shape, 1, 3);
+    assert_true(status == DEM_OK || (slab.lattice.x == NULL && slab.rim == NULL));
+    if (status == DEM_OK) status = dem_slab_jitter(&slab, 1e-3, 1);
+    return status;
+}
+
 static dem_status read_mesh(void)
 {
     static const char text[] = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n"
@@ -144,6 +157,7 @@ static dem_status run(void)
     CLEANUP(free_simulation) dem_simulation *simulation = NULL;
     lattice = dem_lattice_empty();
     dem_status status = build_squares();
+    if (status == DEM_OK) status = build_slab();
     if (status == DEM_OK) status = read_mesh();
     if (status == DEM_OK) status = build(&lattice);
     if (status == DEM_OK) status = dem_model_create(&model, &lattice, &obstacle, 1);

@@ -1,11 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ranks that are processes, each with a slab of a block that falls on a floor: positions, velocities and energies have
- * the bits of one process that has the whole. `mpirun -n N test_slabs`. */
+/* Ranks that are processes, each with a slab of a block, or of a disc with a hole, that falls on a floor: positions,
+ * velocities and energies have the bits of one process that has the whole. `mpirun -n N test_slabs`. */
 #include <stdlib.h>
 
 #include "rank_test.h"
 
 static const double width = 0.05, height = 0.04, spacing = 2.5e-3;
+
+static const dem_outline disc = {
+    .struct_size = sizeof disc, .kind = DEM_OUTLINE_DISC, .centre = {0.0, 0.02}, .radius = 0.02};
+static const dem_outline hole = {
+    .struct_size = sizeof hole, .kind = DEM_OUTLINE_DISC, .centre = {0.005, 0.022}, .radius = 0.006};
+static const dem_shape holed = {
+    .struct_size = sizeof holed, .outline = &disc, .spacing = 2.5e-3, .n_voids = 1, .voids = &hole};
 
 /* The same of the whole and of slabs. */
 static void finish_block(dem_lattice *l)
@@ -22,19 +29,22 @@ static void finish_block(dem_lattice *l)
     dem_lattice_move(l, 0.02, (const double[2]){0.0, 8e-4});
 }
 
-static dem_lattice make_whole(void)
+/* \param shape  NULL: the block */
+static dem_lattice make_whole(const dem_shape *shape)
 {
     dem_lattice l = dem_lattice_empty();
-    INSIST(dem_lattice_rectangle(&l, width, height, spacing) == DEM_OK);
+    INSIST((shape != NULL ? dem_shape_lattice(&l, shape, NULL) : dem_lattice_rectangle(&l, width, height, spacing)) ==
+           DEM_OK);
     INSIST(dem_lattice_jitter(&l, 0.2 * spacing, 1) == DEM_OK);
     finish_block(&l);
     return l;
 }
 
-static dem_slab make_slab(team t)
+static dem_slab make_slab(const dem_shape *shape, team t)
 {
     dem_slab s = dem_slab_empty();
-    INSIST(dem_slab_rectangle(&s, width, height, spacing, t.rank, t.size) == DEM_OK);
+    INSIST((shape != NULL ? dem_slab_shape(&s, shape, t.rank, t.size)
+                          : dem_slab_rectangle(&s, width, height, spacing, t.rank, t.size)) == DEM_OK);
     INSIST(dem_slab_jitter(&s, 0.2 * spacing, 1) == DEM_OK);
     finish_block(&s.lattice);
     return s;
@@ -75,15 +85,15 @@ static void compare(const seen *shared, const seen *alone, dem_index n, int rank
     INSIST(alone->counts.events > 10);
 }
 
-static void check(dem_method method, team t)
+static void check(dem_method method, const dem_shape *shape, team t)
 {
     const double points[] = {-0.1, 0.0, 0.0, 2e-4, 0.1, 0.0};
     const dem_obstacle floor = {
         .struct_size = sizeof floor, .n_points = 3, .points = points, .restitution = 0.5, .friction = 0.3};
     dem_options options = dem_options_default();
     dem_model *model = NULL;
-    dem_lattice whole = make_whole();
-    dem_slab slab = make_slab(t);
+    dem_lattice whole = make_whole(shape);
+    dem_slab slab = make_slab(shape, t);
     options.method = method;
     INSIST(dem_model_create(&model, &whole, &floor, 1) == DEM_OK);
     seen alone = run(model, &options, whole.n_nodes);
@@ -112,14 +122,14 @@ static void refuse(dem_slab *slab, const dem_options *options, dem_status status
 static void refuse_all(team t)
 {
     dem_options options = dem_options_default();
-    dem_slab slab = make_slab(t);
+    dem_slab slab = make_slab(NULL, t);
     refuse(t.rank == t.size - 1 ? NULL : &slab, NULL, DEM_ERROR_ARGUMENT, "slab is NULL");
     dem_slab_free(&slab);
-    slab = make_slab(t);
+    slab = make_slab(NULL, t);
     options.bodies = DEM_BODIES_ALL;
     options.contact_thickness = spacing;
     refuse(&slab, &options, DEM_ERROR_MODEL, "cannot touch");
-    slab = make_slab(t);
+    slab = make_slab(NULL, t);
     INSIST(dem_model_create_mpi_slab(NULL, &slab, NULL, 0, NULL, MPI_COMM_WORLD) == DEM_ERROR_ARGUMENT);
     INSIST(is_empty(&slab));
 }
@@ -127,8 +137,9 @@ static void refuse_all(team t)
 int main(int argc, char **argv)
 {
     const team t = rank_test_begin(&argc, &argv);
-    check(DEM_METHOD_FEHLBERG45, t);
-    check(DEM_METHOD_VERLET, t);
+    check(DEM_METHOD_FEHLBERG45, NULL, t);
+    check(DEM_METHOD_VERLET, NULL, t);
+    check(DEM_METHOD_VERLET, &holed, t);
     refuse_all(t);
     (void)MPI_Finalize();
     return 0;

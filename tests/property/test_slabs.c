@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The slabs of a lattice are what the whole has at their nodes, to the bit, and each node is one slab's own: random
- * rectangles of triangles and squares, jittered or not, in 1 to 9 parts, as they are made and as solids.
+ * rectangles, discs, rings, polygons and images, less voids and pores, of triangles and squares, jittered or not, in 1
+ * to 9 parts, as they are made and as solids of two materials.
  * `test_slabs [CASES [FIRST_SEED]]`. */
 #include "verification/support.h"
 
@@ -12,72 +13,176 @@
 #include "harness/cleanup.h"
 #include "harness/cleanup_gsl.h"
 #include "lattice/lattice_arrays.h"
+#include "lattice/mesh_edges.h"
 
 static long n_cases = 20000, first_seed = 1;
 
 /* ---- cases ---- */
 
+enum { MOST_VOIDS = 3, POLYGON = 7, PIXELS = 6 };
+
 typedef struct recipe {
     double width, height, spacing, jitter, diagonal; /* diagonal = 0: triangles */
     uint64_t seed;
     dem_index n_parts;
-    dem_material solid;
+    dem_material solids[2];
+    bool is_shape; /* else a whole rectangle */
+    dem_shape shape;
+    dem_outline outline, voids[MOST_VOIDS];
+    dem_image image;
+    double points[2 * POLYGON], pores[3 * MOST_VOIDS];
+    unsigned char pixels[PIXELS * PIXELS];
 } recipe;
 
-static recipe draw(gsl_rng *random)
+static double from(gsl_rng *random, double least, double most)
 {
-    recipe r = {.spacing = 1e-3 * (0.5 + gsl_rng_uniform(random)), .seed = gsl_rng_get(random)};
-    const double columns = 1.0 + 9.0 * gsl_rng_uniform(random), rows = 1.0 + 19.0 * gsl_rng_uniform(random);
-    r.width = columns * r.spacing;
-    r.height = rows * r.spacing;
-    r.jitter = gsl_rng_uniform_int(random, 3) > 0 ? 0.3 * gsl_rng_uniform(random) * r.spacing : 0.0;
-    r.diagonal = gsl_rng_uniform_int(random, 2) > 0 ? 0.5 : 0.0;
-    r.n_parts = 1 + (dem_index)gsl_rng_uniform_int(random, 9);
-    r.solid = (dem_material)SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1050.0,
-                                  .thickness = 0.1, .guard = 0.02, .damping_time = 1e-6);
-    if (r.diagonal == 0.0 && gsl_rng_uniform_int(random, 2) > 0) r.solid.springs = DEM_SPRINGS_COUPLED;
-    return r;
+    return least + (most - least) * gsl_rng_uniform(random);
 }
 
+static bool toss(gsl_rng *random)
+{
+    return gsl_rng_uniform_int(random, 2) > 0;
+}
+
+/* Seen from the origin corners come in their order, so that edges do not meet. */
+static dem_outline draw_polygon(gsl_rng *random, double *points, double size)
+{
+    for (int k = 0; k < POLYGON; k++) {
+        const double angle = (k + from(random, 0.1, 0.9)) * 2.0 * 3.14159265358979 / POLYGON;
+        const double reach = from(random, 0.3, 1.0) * size;
+        points[2 * k] = reach * cos(angle);
+        points[2 * k + 1] = reach * sin(angle);
+    }
+    return (dem_outline)SIZED(dem_outline, .kind = DEM_OUTLINE_POLYGON, .n_points = POLYGON, .points = points);
+}
+
+/* About the origin, of any kind but a polygon. */
+static dem_outline draw_round(gsl_rng *random, double size)
+{
+    dem_outline o = SIZED(dem_outline, .kind = (dem_outline_kind)gsl_rng_uniform_int(random, DEM_OUTLINE_POLYGON),
+                          .size = {from(random, 0.5, 2.0) * size, from(random, 0.5, 2.0) * size}, .radius = size,
+                          .inner_radius = from(random, 0.2, 0.7) * size);
+    return o;
+}
+
+static void draw_body(recipe *r, gsl_rng *random, double size)
+{
+    if (gsl_rng_uniform_int(random, 4) == 0) {
+        for (int k = 0; k < PIXELS * PIXELS; k++) r->pixels[k] = gsl_rng_uniform_int(random, 4) > 0;
+        r->image = (dem_image)SIZED(dem_image, .width = PIXELS, .height = PIXELS, .pixel = 2.0 * size / PIXELS,
+                                    .solid = r->pixels);
+        r->shape.image = &r->image;
+        return;
+    }
+    r->outline = toss(random) ? draw_polygon(random, r->points, size) : draw_round(random, size);
+    if (toss(random)) r->outline.angle = from(random, -1.0, 1.0);
+    for (int c = 0; c < 2 && toss(random); c++) r->outline.centre[c] = from(random, -0.3, 0.3);
+    r->shape.outline = &r->outline;
+}
+
+/* Some are outside. */
+static void draw_voids(recipe *r, gsl_rng *random, double size)
+{
+    r->shape.n_voids = (dem_index)gsl_rng_uniform_int(random, MOST_VOIDS + 1);
+    r->shape.n_pores = (dem_index)gsl_rng_uniform_int(random, MOST_VOIDS + 1);
+    for (int k = 0; k < MOST_VOIDS; k++) {
+        r->voids[k] = draw_round(random, from(random, 0.05, 0.5) * size);
+        r->pores[3 * k + 2] = from(random, 0.05, 0.4) * size;
+        for (int c = 0; c < 2; c++) {
+            r->voids[k].centre[c] = r->outline.centre[c] + from(random, -0.8, 0.8) * size;
+            r->pores[3 * k + c] = r->outline.centre[c] + from(random, -0.8, 0.8) * size;
+        }
+    }
+    r->shape.voids = r->voids;
+    r->shape.pores = r->pores;
+}
+
+static void draw_shape(recipe *r, gsl_rng *random)
+{
+    const double size = from(random, 2.0, 8.0) * r->spacing;
+    r->shape = (dem_shape)SIZED(dem_shape, .spacing = r->spacing,
+                                .grid = r->diagonal > 0.0 ? DEM_GRID_SQUARES : DEM_GRID_TRIANGLES);
+    draw_body(r, random, size);
+    draw_voids(r, random, size);
+}
+
+static void draw_solids(recipe *r, gsl_rng *random)
+{
+    r->solids[0] = (dem_material)SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1050.0,
+                                       .thickness = 0.1, .guard = 0.02, .damping_time = 1e-6);
+    if (r->diagonal == 0.0 && toss(random)) r->solids[0].springs = DEM_SPRINGS_COUPLED;
+    r->solids[1] = r->solids[0];
+    r->solids[1].youngs_modulus = 3e7;
+    r->solids[1].damping_time = 0.0;
+}
+
+static void draw(recipe *r, gsl_rng *random)
+{
+    *r = (recipe){.spacing = 1e-3 * from(random, 0.5, 1.5), .seed = gsl_rng_get(random)};
+    r->width = from(random, 1.0, 10.0) * r->spacing;
+    r->height = from(random, 1.0, 20.0) * r->spacing;
+    r->jitter = gsl_rng_uniform_int(random, 3) > 0 ? from(random, 0.0, 0.3) * r->spacing : 0.0;
+    r->diagonal = toss(random) ? 0.5 : 0.0;
+    r->n_parts = 1 + (dem_index)gsl_rng_uniform_int(random, 9);
+    r->is_shape = toss(random);
+    draw_solids(r, random);
+    if (r->is_shape) draw_shape(r, random);
+}
+
+/* Of two materials, the second one in a disc. */
 static void assemble(dem_lattice *l, const recipe *r)
 {
-    assert_ok(r->diagonal > 0.0 ? dem_lattice_assemble_squares(l, &r->solid, r->diagonal)
-                                : dem_lattice_assemble(l, &r->solid));
+    const dem_outline inclusion =
+        SIZED(dem_outline, .kind = DEM_OUTLINE_DISC, .radius = 2.5 * r->spacing, .centre = {0.0, 1.5 * r->spacing});
+    bool *is_inside = malloc((size_t)l->n_triangles * sizeof *is_inside);
+    dem_index *of = malloc((size_t)l->n_triangles * sizeof *of);
+    assert_ok(dem_lattice_inside(l, &inclusion, r->diagonal > 0.0 ? 2 : 1, is_inside, NULL));
+    for (dem_index t = 0; t < l->n_triangles; t++) of[t] = is_inside[t];
+    assert_ok(dem_lattice_assemble_mixed(l, r->solids, 2, of, r->diagonal));
+    free(is_inside);
+    free(of);
 }
 
-static dem_lattice make_whole(const recipe *r)
+/* Not jittered yet. */
+static dem_status make_whole(dem_lattice *l, const recipe *r)
 {
-    dem_lattice l = dem_lattice_empty();
-    assert_ok(r->diagonal > 0.0 ? dem_lattice_squares(&l, r->width, r->height, r->spacing)
-                                : dem_lattice_rectangle(&l, r->width, r->height, r->spacing));
-    assert_ok(dem_lattice_jitter(&l, r->jitter, r->seed));
-    return l;
+    *l = dem_lattice_empty();
+    if (r->is_shape) return dem_shape_lattice(l, &r->shape, NULL);
+    return r->diagonal > 0.0 ? dem_lattice_squares(l, r->width, r->height, r->spacing)
+                             : dem_lattice_rectangle(l, r->width, r->height, r->spacing);
 }
 
-/* Of more parts than rows none is made. */
-static bool make_slab(dem_slab *s, const recipe *r, dem_index part)
+static dem_status make_slab(dem_slab *s, const recipe *r, dem_index part)
 {
     *s = dem_slab_empty();
-    const dem_status status = r->diagonal > 0.0
-                                  ? dem_slab_squares(s, r->width, r->height, r->spacing, part, r->n_parts)
-                                  : dem_slab_rectangle(s, r->width, r->height, r->spacing, part, r->n_parts);
-    if (status == DEM_ERROR_MODEL) return false;
-    assert_ok(status);
-    assert_ok(dem_slab_jitter(s, r->jitter, r->seed));
-    return true;
+    if (r->is_shape) return dem_slab_shape(s, &r->shape, part, r->n_parts);
+    return r->diagonal > 0.0 ? dem_slab_squares(s, r->width, r->height, r->spacing, part, r->n_parts)
+                             : dem_slab_rectangle(s, r->width, r->height, r->spacing, part, r->n_parts);
 }
 
-static dem_index count_rows(const dem_lattice *l, const recipe *r)
+/* Of a lattice whose nodes are where the grid has them. */
+typedef struct rows {
+    dem_index n, largest; /* those with nodes, and the most nodes in one */
+} rows;
+
+static rows count_rows(const dem_lattice *l)
 {
-    return (dem_index)lround(l->x[2 * l->n_nodes - 1] / (r->diagonal > 0.0 ? r->spacing : sqrt(0.75) * r->spacing)) + 1;
+    rows found = {0};
+    dem_index in_row = 0;
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        const bool is_new = i == 0 || l->x[2 * i + 1] != l->x[2 * i - 1];
+        found.n += is_new;
+        in_row = is_new ? 1 : in_row + 1;
+        if (in_row > found.largest) found.largest = in_row;
+    }
+    return found;
 }
 
 /* ---- comparison ---- */
 
 static bool is_own(const dem_slab *s, dem_index number)
 {
-    const dem_index i = number - s->first_node - s->first_own;
-    return i >= 0 && i < s->n_own;
+    return number >= s->first_node && number < s->first_node + s->n_own;
 }
 
 static bool any_is_own(const dem_slab *s, const dem_index *number, int n)
@@ -85,6 +190,13 @@ static bool any_is_own(const dem_slab *s, const dem_index *number, int n)
     bool any = false;
     for (int k = 0; k < n; k++) any = any || is_own(s, number[k]);
     return any;
+}
+
+/* The number in the whole of a node of the slab. */
+static dem_index number_of(const dem_slab *s, dem_index i)
+{
+    if (i < s->first_own) return s->rim[i];
+    return i < s->first_own + s->n_own ? s->first_node + (i - s->first_own) : s->rim[i - s->n_own];
 }
 
 /* One item in all arrays of its kind but those of numbers of nodes. An array that is NULL is one of zeros: no strengths
@@ -104,14 +216,35 @@ static void assert_same_item(const dem_lattice *whole, dem_index at, const dem_l
 
 static void assert_same_nodes(const dem_lattice *whole, const dem_slab *s, dem_index *next)
 {
-    const size_t place = 2 * sizeof(double);
     assert_int_equal(s->n_nodes, whole->n_nodes);
     assert_int_equal(s->n_triangles, whole->n_triangles);
-    assert_int_equal(s->first_node + s->first_own, *next);
+    assert_int_equal(s->first_node, *next);
     *next += s->n_own;
-    assert_memory_equal(s->lattice.x, whole->x + 2 * s->first_node, (size_t)s->lattice.n_nodes * place);
+    for (dem_index i = 0; i < s->lattice.n_nodes; i++)
+        assert_memory_equal(s->lattice.x + 2 * i, whole->x + 2 * number_of(s, i), 2 * sizeof(double));
     for (dem_index i = s->first_own; i < s->first_own + s->n_own; i++)
-        assert_same_item(whole, s->first_node + i, &s->lattice, i, LATTICE_NODES);
+        assert_same_item(whole, number_of(s, i), &s->lattice, i, LATTICE_NODES);
+}
+
+/* The nodes next to own ones in triangles, and whether they are on the boundary. */
+static void assert_same_rim(const dem_lattice *whole, const dem_slab *s)
+{
+    bool *is_rim = calloc((size_t)whole->n_nodes, sizeof *is_rim);
+    unsigned char *boundary = calloc((size_t)whole->n_nodes, sizeof *boundary);
+    dem_index k = 0;
+    for (dem_index t = 0; t < whole->n_triangles; t++)
+        for (int c = 0; c < 3 && any_is_own(s, whole->triangles + 3 * t, 3); c++)
+            is_rim[whole->triangles[3 * t + c]] = true;
+    assert_ok(mesh_edges_contact_flags(boundary, whole));
+    for (dem_index i = 0; i < whole->n_nodes; i++) {
+        if (!is_rim[i] || is_own(s, i)) continue;
+        assert_true(k < s->lattice.n_nodes - s->n_own);
+        assert_int_equal(s->rim[k], i);
+        assert_int_equal(s->rim_boundary[k++], boundary[i] != 0);
+    }
+    assert_int_equal(k, s->lattice.n_nodes - s->n_own);
+    free(is_rim);
+    free(boundary);
 }
 
 /* All that are at own nodes, in the order of the whole, and no others. */
@@ -122,7 +255,7 @@ static void assert_same_triangles(const dem_lattice *whole, const dem_slab *s)
         if (!any_is_own(s, whole->triangles + 3 * t, 3)) continue;
         assert_int_equal(t, s->first_triangle + k);
         for (int c = 0; c < 3; c++)
-            assert_int_equal(s->lattice.triangles[3 * k + c] + s->first_node, whole->triangles[3 * t + c]);
+            assert_int_equal(number_of(s, s->lattice.triangles[3 * k + c]), whole->triangles[3 * t + c]);
         assert_same_item(whole, t, &s->lattice, k++, LATTICE_TRIANGLES);
     }
     assert_int_equal(k, s->lattice.n_triangles);
@@ -133,7 +266,7 @@ static dem_index next_own(const dem_slab *s, dem_index k)
 {
     for (; k < s->lattice.n_springs; k++) {
         const dem_index *end = s->lattice.ends + 2 * k;
-        if (any_is_own(s, (const dem_index[]){end[0] + s->first_node, end[1] + s->first_node}, 2)) break;
+        if (any_is_own(s, (const dem_index[]){number_of(s, end[0]), number_of(s, end[1])}, 2)) break;
     }
     return k;
 }
@@ -144,8 +277,7 @@ static void assert_same_springs(const dem_lattice *whole, const dem_slab *s)
     for (dem_index w = 0; w < whole->n_springs; w++) {
         if (!any_is_own(s, whole->ends + 2 * w, 2)) continue;
         assert_true(k < s->lattice.n_springs);
-        for (int e = 0; e < 2; e++)
-            assert_int_equal(s->lattice.ends[2 * k + e] + s->first_node, whole->ends[2 * w + e]);
+        for (int e = 0; e < 2; e++) assert_int_equal(number_of(s, s->lattice.ends[2 * k + e]), whole->ends[2 * w + e]);
         assert_same_item(whole, w, &s->lattice, k, LATTICE_SPRINGS);
         k = next_own(s, k + 1);
     }
@@ -154,33 +286,62 @@ static void assert_same_springs(const dem_lattice *whole, const dem_slab *s)
 
 /* ---- tests ---- */
 
-static void check(unsigned long seed)
+static long n_shapes; /* compared */
+
+/* Of what cannot be made as a whole there is no slab, for the same reason. */
+static void assert_refused(const recipe *r, dem_status status)
 {
-    CLEANUP(free_rng) gsl_rng *random = gsl_rng_alloc(gsl_rng_taus);
-    gsl_rng_set(random, seed);
-    const recipe r = draw(random);
-    CLEANUP(dem_lattice_free) dem_lattice whole = make_whole(&r), solid = make_whole(&r);
+    CLEANUP(dem_slab_free) dem_slab s;
+    assert_int_equal(make_slab(&s, r, 0), status);
+    assert_int_equal(s.lattice.n_nodes, 0);
+}
+
+static void compare(const recipe *r, dem_lattice *whole)
+{
+    const rows found = count_rows(whole);
+    CLEANUP(dem_lattice_free) dem_lattice solid = dem_lattice_empty();
     dem_index next = 0, next_solid = 0;
-    assemble(&solid, &r);
-    for (dem_index part = 0; part < r.n_parts; part++) {
+    assert_ok(make_whole(&solid, r));
+    assert_ok(dem_lattice_jitter(whole, r->jitter, r->seed));
+    assert_ok(dem_lattice_jitter(&solid, r->jitter, r->seed));
+    assemble(&solid, r);
+    for (dem_index part = 0; part < r->n_parts; part++) {
         CLEANUP(dem_slab_free) dem_slab s;
-        if (!make_slab(&s, &r, part)) {
-            assert_true(r.n_parts > count_rows(&whole, &r));
-            return;
-        }
-        assert_same_nodes(&whole, &s, &next);
-        assert_same_triangles(&whole, &s);
-        assemble(&s.lattice, &r);
+        const dem_status status = make_slab(&s, r, part);
+        assert_int_equal(status, r->n_parts > found.n ? DEM_ERROR_MODEL : DEM_OK);
+        if (status != DEM_OK) return;
+        assert_ok(dem_slab_jitter(&s, r->jitter, r->seed));
+        assert_true(!r->is_shape || s.n_own <= whole->n_nodes / r->n_parts + 1 + found.largest);
+        assert_same_nodes(whole, &s, &next);
+        assert_same_rim(whole, &s);
+        assert_same_triangles(whole, &s);
+        assemble(&s.lattice, r);
         assert_same_nodes(&solid, &s, &next_solid);
         assert_same_triangles(&solid, &s);
         assert_same_springs(&solid, &s);
     }
-    assert_int_equal(next, whole.n_nodes);
+    assert_int_equal(next, whole->n_nodes);
+    n_shapes += r->is_shape;
+}
+
+static void check(unsigned long seed)
+{
+    CLEANUP(free_rng) gsl_rng *random = gsl_rng_alloc(gsl_rng_taus);
+    recipe r;
+    gsl_rng_set(random, seed);
+    draw(&r, random);
+    CLEANUP(dem_lattice_free) dem_lattice whole = dem_lattice_empty();
+    const dem_status status = make_whole(&whole, &r);
+    if (status == DEM_OK)
+        compare(&r, &whole);
+    else
+        assert_refused(&r, status);
 }
 
 TEST(slabs_are_the_rows_of_the_whole)
 {
     for (long k = 0; k < n_cases; k++) check((unsigned long)(first_seed + k));
+    assert_true(n_shapes > n_cases / 5);
 }
 
 int main(int n_arguments, char **arguments)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Ranks that make slabs of a lattice which nobody has run it with the bits of the whole in one process: free, and
- * falling on obstacles, with all events and the ledger. */
+ * falling on obstacles, with all events and the ledger; rectangles, and what is cut out of rows. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,8 +18,9 @@ static const double spacing = 2.5e-3, width = 0.07, height = 0.045;
 
 typedef struct kind {
     bool has_floor, is_square;
-    double jitter;       /* in spacings */
-    double damping_time; /* s, of springs */
+    const dem_shape *shape; /* NULL: a rectangle of whole rows */
+    double jitter;          /* in spacings */
+    double damping_time;    /* s, of springs */
     dem_springs springs;
     dem_method method;
     int rings; /* of ghosts, at most, if they are no more than all nodes; 0: as many as there is a use for */
@@ -46,11 +47,24 @@ static void finish_block(dem_lattice *l, const kind *k, double lift)
     if (!k->has_floor) rank_runs_set_off(l, 20.0, 1.0);
 }
 
+static dem_status triangulate(dem_lattice *l, const kind *k)
+{
+    if (k->shape != NULL) return dem_shape_lattice(l, k->shape, NULL);
+    return k->is_square ? dem_lattice_squares(l, width, height, spacing)
+                        : dem_lattice_rectangle(l, width, height, spacing);
+}
+
+static dem_status triangulate_part(dem_slab *s, const kind *k, int part, int n_parts)
+{
+    if (k->shape != NULL) return dem_slab_shape(s, k->shape, part, n_parts);
+    return k->is_square ? dem_slab_squares(s, width, height, spacing, part, n_parts)
+                        : dem_slab_rectangle(s, width, height, spacing, part, n_parts);
+}
+
 static dem_lattice make_whole(const kind *k, double lift)
 {
     dem_lattice l = dem_lattice_empty();
-    assert_ok(k->is_square ? dem_lattice_squares(&l, width, height, spacing)
-                           : dem_lattice_rectangle(&l, width, height, spacing));
+    assert_ok(triangulate(&l, k));
     assert_ok(dem_lattice_jitter(&l, k->jitter * spacing, 5));
     finish_block(&l, k, lift);
     return l;
@@ -60,8 +74,7 @@ static dem_slab make_slab(const scene *s, int part, int n_parts)
 {
     const kind *k = s->kind;
     dem_slab slab = dem_slab_empty();
-    assert_ok(k->is_square ? dem_slab_squares(&slab, width, height, spacing, part, n_parts)
-                           : dem_slab_rectangle(&slab, width, height, spacing, part, n_parts));
+    assert_ok(triangulate_part(&slab, k, part, n_parts));
     assert_ok(dem_slab_jitter(&slab, k->jitter * spacing, 5));
     finish_block(&slab.lattice, k, s->lift);
     return slab;
@@ -104,7 +117,7 @@ static void make_slabs(shared_run *run, int n)
     for (int part = 0; part < n; part++) {
         dem_slab *s = &run->slabs[part];
         *s = make_slab(run->scene, part, n);
-        run->first[part] = s->first_node + s->first_own;
+        run->first[part] = s->first_node;
         run->first[part + 1] = run->first[part] + s->n_own;
     }
 }
@@ -222,6 +235,51 @@ TEST(a_block_in_slabs_falls_on_obstacles_as_the_whole)
                   .jitter = 0.2,
                   .springs = DEM_SPRINGS_COUPLED,
                   .damping_time = 1e-6});
+}
+
+/* ---- what is cut out of rows ---- */
+
+TEST(a_disc_in_slabs_falls_on_obstacles_as_the_whole)
+{
+    const dem_outline disc = SIZED(dem_outline, .kind = DEM_OUTLINE_DISC, .radius = 0.028, .centre = {0.003, 0.1});
+    const dem_shape shape = SIZED(dem_shape, .outline = &disc, .spacing = spacing);
+    check(&(kind){.has_floor = true, .shape = &shape, .method = DEM_METHOD_FEHLBERG45});
+    check(&(kind){.has_floor = true,
+                  .shape = &shape,
+                  .method = DEM_METHOD_VERLET,
+                  .jitter = 0.3,
+                  .springs = DEM_SPRINGS_COUPLED,
+                  .damping_time = 1e-6});
+    check(&(kind){.shape = &shape, .method = DEM_METHOD_VERLET, .rings = 4});
+}
+
+TEST(a_porous_plate_in_slabs_falls_on_obstacles_as_the_whole)
+{
+    enum { n_pores = 8 };
+    const dem_pores recipe = SIZED(dem_pores, .number = n_pores, .radius_min = 1.5 * spacing,
+                                   .radius_max = 2.5 * spacing, .wall = spacing, .seed = 3);
+    const dem_outline plate = SIZED(dem_outline, .size = {width, height}, .centre = {0.0, 0.5 * height});
+    const dem_outline notch =
+        SIZED(dem_outline, .kind = DEM_OUTLINE_DISC, .radius = 3.0 * spacing, .centre = {0.4 * width, 0.0});
+    double pores[3 * n_pores];
+    dem_index n;
+    dem_shape shape = SIZED(dem_shape, .outline = &plate, .spacing = spacing, .n_voids = 1, .voids = &notch);
+    assert_ok(dem_shape_place_pores(&shape, &recipe, pores, n_pores, &n));
+    shape.n_pores = n;
+    shape.pores = pores;
+    check(&(kind){.has_floor = true, .shape = &shape, .method = DEM_METHOD_FEHLBERG45, .jitter = 0.2});
+    shape.grid = DEM_GRID_SQUARES;
+    check(&(kind){.has_floor = true, .shape = &shape, .is_square = true, .method = DEM_METHOD_VERLET});
+}
+
+/* The void goes through all of it: the lower part hits the floor, the upper one does not. */
+TEST(parts_that_are_not_connected_move_in_slabs_as_in_the_whole)
+{
+    const double points[] = {-0.03, 0.0, 0.03, 0.0, 0.0, 0.05};
+    const dem_outline triangle = SIZED(dem_outline, .kind = DEM_OUTLINE_POLYGON, .n_points = 3, .points = points);
+    const dem_outline slit = SIZED(dem_outline, .size = {1.0, 1.8 * spacing}, .centre = {0.0, 0.02}, .angle = 0.1);
+    const dem_shape shape = SIZED(dem_shape, .outline = &triangle, .spacing = spacing, .n_voids = 1, .voids = &slit);
+    check(&(kind){.has_floor = true, .shape = &shape, .method = DEM_METHOD_VERLET});
 }
 
 /* ---- what is refused ---- */

@@ -96,7 +96,7 @@ static void add_ring(const dem_lattice *l, bool *marked)
 /* Own nodes and common ones, with their rings. */
 static void mark_region(const dem_lattice *l, const dem_slab *s, const region_extent *e, bool *marked)
 {
-    const dem_index begin = s->first_node + s->first_own;
+    const dem_index begin = s->first_node;
     for (dem_index i = 0; i < l->n_nodes; i++) marked[i] = e->has_common && (l->flags[i] & DEM_NODE_CONTACT) != 0;
     for (int ring = 0; ring < e->common_rings; ring++) add_ring(l, marked);
     for (dem_index i = begin; i < begin + s->n_own; i++) marked[i] = true;

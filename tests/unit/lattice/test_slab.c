@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* slab.c: what is refused, and what little a slab is; tests/property/test_slabs.c compares slabs with the whole. */
 #include "unit/solids.h"
+
+#include <stdlib.h>
+
 #include "harness/message.h"
 
 #define assert_refused(call, status, message)                                                                          \
@@ -22,11 +25,15 @@ TEST(a_slab_has_its_rows_and_one_beside)
     CLEANUP(dem_slab_free) dem_slab s = make_slab(12.0, 1, 3); /* of 15 rows those from 5 to 9 */
     assert_int_equal(s.n_nodes, 15 * 10 + 8);
     assert_int_equal(s.n_triangles, 14 * 19);
-    assert_int_equal(s.first_node, 42); /* of row 4, a wide one */
+    assert_int_equal(s.first_node, 42 + 11); /* of row 5, behind a wide one */
     assert_int_equal(s.first_triangle, 4 * 19);
     assert_int_equal(s.first_own, 11);
     assert_int_equal(s.n_own, 52);
     assert_int_equal(s.lattice.n_nodes, 11 + 52 + 11);
+    for (dem_index k = 0; k < 22; k++) {
+        assert_int_equal(s.rim[k], k < 11 ? 42 + k : 42 + 52 + k);
+        assert_int_equal(s.rim_boundary[k], k % 11 == 0 || k % 11 == 10);
+    }
     assert_int_equal(s.lattice.n_triangles, 6 * 19);
 }
 
@@ -38,7 +45,7 @@ TEST(a_slab_takes_no_more_memory_than_its_rows)
     assert_int_equal(s.n_nodes, 1001 * (dem_index)1000001);
     assert_int_equal(s.n_own, 1001);
     assert_int_equal(s.lattice.n_nodes, 3 * 1001);
-    assert_int_equal(s.first_node, 499999 * (dem_index)1001);
+    assert_int_equal(s.first_node, 500000 * (dem_index)1001);
     assert_close(s.lattice.x[1], 499999.0, 0.0);
 }
 
@@ -88,8 +95,27 @@ TEST(slabs_refuse_to_be_moved_without_a_place_in_a_whole)
     assert_refused(dem_slab_jitter(&s, 0.1, 1), DEM_ERROR_ARGUMENT, "74 nodes * no 152 own ones from 11 on");
     s.n_own -= 100;
     s.n_nodes = 100;
-    assert_refused(dem_slab_jitter(&s, 0.1, 1), DEM_ERROR_ARGUMENT, "74 nodes from 42 on * 100 nodes");
+    assert_refused(dem_slab_jitter(&s, 0.1, 1), DEM_ERROR_ARGUMENT, "52 nodes from 53 on * 100 nodes");
     s.n_nodes = 158;
+    s.rim[11]--;
+    assert_refused(dem_slab_jitter(&s, 0.1, 1), DEM_ERROR_ARGUMENT, "number 104 of node 11 of the rim * 105 to 157");
+    s.rim[11] = s.rim[12];
+    assert_refused(dem_slab_jitter(&s, 0.1, 1), DEM_ERROR_ARGUMENT, "number 106 of node 12 of the rim * 107 to 157");
+    s.rim[11]--;
+    s.rim[10] = 53;
+    assert_refused(dem_slab_jitter(&s, 0.1, 1), DEM_ERROR_ARGUMENT, "number 53 of node 10 of the rim * 52 to 52");
+    s.rim[10] = 52;
+    free(s.rim_boundary);
+    s.rim_boundary = NULL;
+    assert_refused(dem_slab_jitter(&s, 0.1, 1), DEM_ERROR_ARGUMENT, "no rim_boundary");
+    free(s.rim);
+    s.rim = NULL;
+    assert_refused(dem_slab_jitter(&s, 0.1, 1), DEM_ERROR_ARGUMENT, "no numbers of 22 nodes");
+}
+
+TEST(slabs_with_springs_are_not_moved)
+{
+    CLEANUP(dem_slab_free) dem_slab s = make_slab(12.0, 1, 3);
     assert_int_equal(dem_lattice_assemble(&s.lattice, &rubber), DEM_OK);
     assert_refused(dem_slab_jitter(&s, 0.1, 1), DEM_ERROR_MODEL, "springs cannot be jittered");
 }
@@ -101,6 +127,7 @@ TEST(what_is_freed_is_empty)
     assert_int_equal(s.lattice.n_nodes, 0);
     assert_int_equal(s.n_own, 0);
     assert_null(s.lattice.x);
+    assert_true(s.rim == NULL && s.rim_boundary == NULL);
     dem_slab_free(NULL);
     dem_slab_free(&bare);
 }

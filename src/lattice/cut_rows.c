@@ -1,0 +1,335 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A node stays if one of its triangles does, which are between its row and the ones beside. So of a range of rows it is
+ * known what stays of all but the first and the last. Numbers follow from counts of what is left in the rows before. */
+#include "lattice/cut_rows.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "lattice/lattice.h"
+#include "lattice/mesh_edges.h"
+
+static const dem_index most_counted = 65536; /* nodes at a time, but for those of whole rows */
+
+static dem_status lacks_memory(const grid *rows)
+{
+    return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)grid_count_nodes(rows));
+}
+
+/* ---- a range of rows ---- */
+
+/* Those of the whole. */
+static grid rows_of(const grid *whole, dem_index first, dem_index last)
+{
+    grid rows = *whole;
+    rows.first = first > whole->first ? first : whole->first;
+    rows.last = last < whole->last ? last : whole->last;
+    return rows;
+}
+
+/* How many nodes of a grid are in rows before `row`, and triangles likewise. */
+static dem_index nodes_below(const grid *g, dem_index row)
+{
+    const grid before = rows_of(g, g->first, row - 1);
+    return grid_count_nodes(&before);
+}
+
+static dem_index triangles_below(const grid *g, dem_index row)
+{
+    const grid strips = rows_of(g, g->first, row);
+    return grid_count_triangles(&strips);
+}
+
+typedef struct range {
+    grid rows;
+    dem_lattice lattice; /* all of them */
+    bool *keep;          /* [n_triangles] */
+    bool *stays;         /* [n_nodes] whether one of the triangles here that stay has the node */
+} range;
+
+static void close_range(range *g)
+{
+    dem_lattice_free(&g->lattice);
+    free(g->keep);
+    free(g->stays);
+}
+
+/* Nodes of triangles for which keep[t].  \param marked  [n_nodes] */
+static void mark_nodes(bool *marked, const dem_lattice *l, const bool *keep)
+{
+    memset(marked, 0, (size_t)l->n_nodes * sizeof *marked);
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++)
+        if (keep[k / 3]) marked[l->triangles[k]] = true;
+}
+
+/* To be closed after a failure, too. */
+static dem_status open_range(range *g, const cut_rows *c, dem_index first, dem_index last)
+{
+    *g = (range){.rows = rows_of(&c->whole, first, last), .lattice = dem_lattice_empty()};
+    TRY(grid_lattice(&g->lattice, &g->rows));
+    g->keep = lattice_zeros(g->lattice.n_triangles, sizeof *g->keep);
+    g->stays = lattice_zeros(g->lattice.n_nodes, sizeof *g->stays);
+    if (g->keep == NULL || g->stays == NULL) return lacks_memory(&g->rows);
+    memset(g->keep, true, (size_t)g->lattice.n_triangles * sizeof *g->keep);
+    if (c->mark != NULL) TRY(c->mark(c->context, &g->lattice, g->keep));
+    mark_nodes(g->stays, &g->lattice, g->keep);
+    return DEM_OK;
+}
+
+static dem_index count(const bool *flags, dem_index begin, dem_index end)
+{
+    dem_index n = 0;
+    for (dem_index k = begin; k < end; k++) n += flags[k];
+    return n;
+}
+
+/* What stays in rows from `first` on, before `end`; of triangles those above each row. */
+static dem_index count_nodes(const range *g, dem_index first, dem_index end)
+{
+    return count(g->stays, nodes_below(&g->rows, first), nodes_below(&g->rows, end));
+}
+
+static dem_index count_triangles(const range *g, dem_index first, dem_index end)
+{
+    return count(g->keep, triangles_below(&g->rows, first), triangles_below(&g->rows, end));
+}
+
+/* ---- counts of all rows ---- */
+
+/* What is left in the rows before each, from the first one on, and before the end. NULL: all is. */
+typedef struct census {
+    dem_index *nodes, *triangles; /* [rows + 1] */
+} census;
+
+static dem_index nodes_before(const cut_rows *c, const census *n, dem_index row)
+{
+    return n->nodes != NULL ? n->nodes[row - c->whole.first] : nodes_below(&c->whole, row);
+}
+
+static dem_index triangles_before(const cut_rows *c, const census *n, dem_index row)
+{
+    return n->triangles != NULL ? n->triangles[row - c->whole.first] : triangles_below(&c->whole, row);
+}
+
+/* Of rows from `first` on, before `end`. */
+static dem_status count_some(census *n, const cut_rows *c, dem_index first, dem_index end)
+{
+    range g;
+    const dem_status status = open_range(&g, c, first - 1, end);
+    for (dem_index row = first; status == DEM_OK && row < end; row++) {
+        const dem_index k = row - c->whole.first;
+        n->nodes[k + 1] = n->nodes[k] + count_nodes(&g, row, row + 1);
+        n->triangles[k + 1] = n->triangles[k] + count_triangles(&g, row, row + 1);
+    }
+    close_range(&g);
+    return status;
+}
+
+static dem_status count_all(census *n, const cut_rows *c)
+{
+    const grid *w = &c->whole;
+    const dem_index some = 1 + most_counted / (w->reach + 1);
+    *n = (census){0};
+    if (c->mark == NULL) return DEM_OK;
+    n->nodes = lattice_zeros(w->last - w->first + 2, sizeof *n->nodes);
+    n->triangles = lattice_zeros(w->last - w->first + 2, sizeof *n->triangles);
+    if (n->nodes == NULL || n->triangles == NULL) return lacks_memory(w);
+    for (dem_index row = w->first; row <= w->last; row += some)
+        TRY(count_some(n, c, row, row + some <= w->last ? row + some : w->last + 1));
+    return DEM_OK;
+}
+
+/* ---- which rows are own ---- */
+
+static bool is_empty(const cut_rows *c, const census *n, dem_index row)
+{
+    return nodes_before(c, n, row) == nodes_before(c, n, row + 1);
+}
+
+static dem_index count_filled(const cut_rows *c, const census *n)
+{
+    dem_index filled = 0;
+    for (dem_index row = c->whole.first; row <= c->whole.last; row++) filled += !is_empty(c, n, row);
+    return filled;
+}
+
+/* Of n rows each part has n/n_parts, and the first ones have one more. */
+static grid own_rows_evenly(const grid *whole, dem_index part, dem_index n_parts)
+{
+    const dem_index n = whole->last - whole->first + 1, each = n / n_parts, more = n % n_parts;
+    const dem_index first = whole->first + part * each + (part < more ? part : more);
+    return rows_of(whole, first, first + each - (part < more ? 0 : 1));
+}
+
+/* Parts end where they have, with those before, their share of the nodes, and have one row with nodes at least.
+ * \param filled  number of rows with nodes */
+static grid own_rows_by_nodes(const cut_rows *c, const census *n, dem_index filled, dem_index part, dem_index n_parts)
+{
+    const double share = (double)nodes_before(c, n, c->whole.last + 1) / (double)n_parts;
+    dem_index first = c->whole.first, row = first;
+    for (dem_index k = 0; k <= part; k++) {
+        first = row;
+        bool has_nodes = false, has_share = false;
+        while (row <= c->whole.last && !(has_nodes && (has_share || filled == n_parts - 1 - k))) {
+            filled -= !is_empty(c, n, row);
+            has_nodes = has_nodes || !is_empty(c, n, row);
+            row++;
+            has_share = k + 1 < n_parts && (double)nodes_before(c, n, row) >= (double)(k + 1) * share;
+        }
+    }
+    return rows_of(&c->whole, first, row - 1);
+}
+
+static dem_status find_own_rows(grid *own, const cut_rows *c, const census *n, dem_index part, dem_index n_parts)
+{
+    const dem_index filled = n->nodes != NULL ? count_filled(c, n) : c->whole.last - c->whole.first + 1;
+    CHECK(filled > 0, DEM_ERROR_MODEL, "none of %lld nodes is left", (long long)grid_count_nodes(&c->whole));
+    CHECK(n_parts <= filled, DEM_ERROR_MODEL, "%lld rows of nodes cannot be %lld slabs", (long long)filled,
+          (long long)n_parts);
+    *own =
+        n->nodes != NULL ? own_rows_by_nodes(c, n, filled, part, n_parts) : own_rows_evenly(&c->whole, part, n_parts);
+    return DEM_OK;
+}
+
+/* ---- a slab ---- */
+
+/* Of what is left of the rows about own ones: two rows on each side, of which the outer ones tell whether the nodes of
+ * the inner ones stay, and are on the boundary. */
+typedef struct draft {
+    dem_slab slab;
+    dem_index outer, below; /* nodes in rows before the row below own ones; and in this one */
+    dem_index begin, end;   /* triangles at own nodes */
+    unsigned char *flags;   /* [n_nodes] not 0: on the boundary */
+    bool *keep;             /* [n_triangles] those at own nodes */
+    bool *marked;           /* [n_nodes] the other nodes of these: the rim */
+} draft;
+
+static void place(draft *d, const cut_rows *c, const census *n, const grid *own)
+{
+    const dem_index first = own->first > c->whole.first ? own->first - 1 : own->first;
+    d->slab.n_nodes = nodes_before(c, n, c->whole.last + 1);
+    d->slab.n_triangles = triangles_before(c, n, c->whole.last + 1);
+    d->slab.first_node = nodes_before(c, n, own->first);
+    d->slab.n_own = nodes_before(c, n, own->last + 1) - d->slab.first_node;
+    d->slab.first_triangle = triangles_before(c, n, first);
+}
+
+/* Takes the lattice of the range over. */
+static dem_status cut_range(draft *d, range *g, const grid *own)
+{
+    d->outer = count_nodes(g, g->rows.first, own->first - 1);
+    d->below = count_nodes(g, own->first - 1, own->first);
+    d->begin = count_triangles(g, g->rows.first, own->first - 1);
+    d->end = d->begin + count_triangles(g, own->first - 1, own->last + 1);
+    TRY(dem_lattice_trim(&g->lattice, g->keep));
+    d->slab.lattice = g->lattice;
+    g->lattice = dem_lattice_empty();
+    return DEM_OK;
+}
+
+static dem_status mark(draft *d)
+{
+    const dem_lattice *l = &d->slab.lattice;
+    d->flags = lattice_zeros(l->n_nodes, sizeof *d->flags);
+    d->keep = lattice_zeros(l->n_triangles, sizeof *d->keep);
+    d->marked = lattice_zeros(l->n_nodes, sizeof *d->marked);
+    CHECK(d->flags && d->keep && d->marked, DEM_ERROR_MEMORY, "out of memory for a slab of %lld nodes",
+          (long long)l->n_nodes);
+    for (dem_index t = d->begin; t < d->end; t++) d->keep[t] = true;
+    mark_nodes(d->marked, l, d->keep);
+    for (dem_index i = d->outer + d->below; i < d->outer + d->below + d->slab.n_own; i++) d->marked[i] = false;
+    return DEM_OK;
+}
+
+static bool has_rim(const draft *d, const dem_index *corner)
+{
+    return d->marked[corner[0]] || d->marked[corner[1]] || d->marked[corner[2]];
+}
+
+/* By the triangles at nodes of the rim, which tell all about edges there. */
+static dem_status mark_boundary(draft *d)
+{
+    const dem_lattice *l = &d->slab.lattice;
+    dem_lattice at_rim = *l;
+    dem_index n = 0;
+    for (dem_index t = 0; t < l->n_triangles; t++) n += has_rim(d, l->triangles + 3 * t);
+    at_rim.triangles = lattice_zeros(n, 3 * sizeof *at_rim.triangles);
+    at_rim.n_triangles = 0;
+    CHECK(at_rim.triangles != NULL, DEM_ERROR_MEMORY, "out of memory for %lld triangles", (long long)n);
+    for (dem_index t = 0; t < l->n_triangles; t++)
+        if (has_rim(d, l->triangles + 3 * t))
+            memcpy(at_rim.triangles + 3 * at_rim.n_triangles++, l->triangles + 3 * t, 3 * sizeof *l->triangles);
+    const dem_status status = mesh_edges_contact_flags(d->flags, &at_rim);
+    free(at_rim.triangles);
+    return status;
+}
+
+static dem_status list_rim(draft *d)
+{
+    dem_slab *s = &d->slab;
+    const dem_lattice *l = &s->lattice;
+    const dem_index own = d->outer + d->below, n = count(d->marked, 0, l->n_nodes);
+    dem_index k = 0;
+    s->rim = lattice_zeros(n, sizeof *s->rim);
+    s->rim_boundary = lattice_zeros(n, sizeof *s->rim_boundary);
+    CHECK(s->rim && s->rim_boundary, DEM_ERROR_MEMORY, "out of memory for a slab of %lld nodes", (long long)l->n_nodes);
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        if (!d->marked[i]) continue;
+        s->first_own += i < own;
+        s->rim[k] = s->first_node + (i - own);
+        s->rim_boundary[k++] = d->flags[i] != 0;
+    }
+    return DEM_OK;
+}
+
+static void *shrink(void *array, dem_index n, size_t size)
+{
+    void *smaller = realloc(array, (size_t)n * size);
+    return smaller != NULL ? smaller : array;
+}
+
+static dem_status finish(draft *d, range *g, const grid *own)
+{
+    dem_lattice *l = &d->slab.lattice;
+    TRY(cut_range(d, g, own));
+    TRY(mark(d));
+    TRY(mark_boundary(d));
+    TRY(list_rim(d));
+    TRY(dem_lattice_trim(l, d->keep));
+    l->x = shrink(l->x, l->n_nodes, 2 * sizeof *l->x);
+    l->triangles = shrink(l->triangles, l->n_triangles, 3 * sizeof *l->triangles);
+    return DEM_OK;
+}
+
+static dem_status make(dem_slab *out, const cut_rows *c, const census *n, const grid *own)
+{
+    draft d = {.slab = dem_slab_empty()};
+    range g;
+    dem_status status = open_range(&g, c, own->first - 2, own->last + 2);
+    place(&d, c, n, own);
+    if (status == DEM_OK) status = finish(&d, &g, own);
+    if (status == DEM_OK)
+        *out = d.slab;
+    else
+        dem_slab_free(&d.slab);
+    close_range(&g);
+    free(d.flags);
+    free(d.keep);
+    free(d.marked);
+    return status;
+}
+
+/* ---- public ---- */
+
+dem_status cut_rows_slab(dem_slab *out, const cut_rows *c, dem_index part, dem_index n_parts)
+{
+    census n;
+    grid own;
+    dem_status status = count_all(&n, c);
+    if (status == DEM_OK) status = find_own_rows(&own, c, &n, part, n_parts);
+    if (status == DEM_OK) status = make(out, c, &n, &own);
+    free(n.nodes);
+    free(n.triangles);
+    return status;
+}

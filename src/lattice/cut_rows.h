@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rows of a grid of which not all stays, and slabs of them: whole rows of what is left. */
+#ifndef DEM_LATTICE_CUT_ROWS_H
+#define DEM_LATTICE_CUT_ROWS_H
+
+#include "lattice/grid.h"
+
+/** Says which triangles stay of some rows, and moves nodes to where they are to be. What is said of a triangle depends
+ *  on its nodes alone, of a cell of squares on those of both triangles.
+ *  \param rows       from grid_lattice()
+ *  \param[out] keep  [n_triangles]
+ *  \return DEM_ERROR_MEMORY */
+typedef dem_status cut_rows_mark(void *context, dem_lattice *rows, bool *keep);
+
+typedef struct cut_rows {
+    grid whole;
+    cut_rows_mark *mark; /* NULL: all stays where it is */
+    void *context;
+} cut_rows;
+
+/** Makes one of n_parts slabs. Where all stays each has the same number of rows, or one more, else about as many nodes;
+ *  these are counted by making all rows, some at a time.
+ *  \param[out] out  of this library's version; overwritten, not freed; dem_slab_free() frees it
+ *  \return DEM_ERROR_MODEL for more parts than rows with nodes, and where nothing is left; DEM_ERROR_MEMORY */
+dem_status cut_rows_slab(dem_slab *out, const cut_rows *c, dem_index part, dem_index n_parts);
+
+#endif
