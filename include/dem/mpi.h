@@ -90,7 +90,8 @@ DEM_API dem_status dem_model_create_mpi_for(dem_model **out, const dem_lattice *
  *                  whatever is returned
  *  \param options  as dem_model_create_mpi_for() has them; NULL: any without contact of bodies
  *  \return as dem_model_create_mpi_for(); DEM_ERROR_ARGUMENT also if slabs do not follow each other or do not have the
- *  same arrays; DEM_ERROR_MODEL also for what is not supported, which the message names */
+ *  same arrays, but for those that assembling leaves out; DEM_ERROR_MODEL also for what is not supported, which the
+ *  message names */
 DEM_API dem_status dem_model_create_mpi_slab(dem_model **out, dem_slab *slab, const dem_obstacle *obstacles,
                                              dem_index n_obstacles, const dem_options *options, MPI_Comm communicator);
 

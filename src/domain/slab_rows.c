@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "domain/slab_rows.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -138,6 +139,27 @@ static void join_presence(void *packet, const void *other)
     p->lacks |= q->lacks;
 }
 
+/* What assembling leaves out where all would be 0, as it may be in one slab and not in another. */
+static bool stands_for_zeros(const lattice_array *a)
+{
+    return a->offset == offsetof(dem_lattice, viscosity) || a->offset == offsetof(dem_lattice, guard) ||
+           a->offset == offsetof(dem_lattice, area_stiffness) || a->offset == offsetof(dem_lattice, coupling);
+}
+
+/* Makes what only others have.  \param differing  bit k: some rank has lattice_arrays[k], and some lacks it */
+static dem_status fill_in(dem_lattice *l, uint32_t differing)
+{
+    for (int k = 0; k < LATTICE_ARRAYS; k++) {
+        const lattice_array *a = &lattice_arrays[k];
+        if ((differing >> k & 1) == 0 || lattice_array_of(l, a) != NULL) continue;
+        CHECK(stands_for_zeros(a), DEM_ERROR_ARGUMENT, "the slabs do not have the same arrays");
+        void *zeros = lattice_zeros(lattice_count(l, a->of), a->size);
+        CHECK(zeros != NULL, DEM_ERROR_MEMORY, "out of memory for a slab of %lld nodes", (long long)l->n_nodes);
+        lattice_array_put(l, a, zeros);
+    }
+    return DEM_OK;
+}
+
 /* Node numbers are no items. */
 static dem_status find_arrays(slab_rows *s)
 {
@@ -149,9 +171,7 @@ static dem_status find_arrays(slab_rows *s)
     }
     s->ranks->reduce(s->ranks->self, &p, sizeof p, join_presence);
     s->arrays = p.has;
-    CHECK((p.has & p.lacks) == 0, DEM_ERROR_ARGUMENT, "the slabs of %d ranks do not have the same arrays",
-          s->ranks->size);
-    return DEM_OK;
+    return reduce_status(s->ranks, fill_in(s->lattice, p.has & p.lacks), 0.0);
 }
 
 /* ---- public ---- */

@@ -23,9 +23,10 @@ typedef struct slab_rows {
 } slab_rows;
 
 /** Finds the places of all slabs. Borrows ranks and the lattice of the slab, of which flags, bodies and velocities are
- *  filled. Collective. Free with slab_rows_free(), after a failure, too.
- *  \return DEM_ERROR_ARGUMENT where slabs do not follow each other, rank by rank, or do not have the same arrays;
- *          DEM_ERROR_MEMORY */
+ *  filled. Arrays that assembling leaves out where all would be 0 are made where only other slabs have them.
+ *  Collective. Free with slab_rows_free(), after a failure, too.
+ *  \return DEM_ERROR_ARGUMENT where slabs do not follow each other, rank by rank, or do not have the same arrays
+ *          besides; DEM_ERROR_MEMORY */
 dem_status slab_rows_create(slab_rows *out, const ranks *r, dem_slab *slab);
 void slab_rows_free(slab_rows *s);
 

@@ -19,6 +19,7 @@ static const double spacing = 2.5e-3, width = 0.07, height = 0.045;
 typedef struct kind {
     bool has_floor, is_square;
     const dem_shape *shape; /* NULL: a rectangle of whole rows */
+    bool is_layered;        /* what is above the middle is of a material without guard, damping and area term */
     double jitter;          /* in spacings */
     double damping_time;    /* s, of springs */
     dem_springs springs;
@@ -34,6 +35,21 @@ typedef struct scene {
     double points[2 * FLOOR_POINTS];
 } scene;
 
+static void assemble(dem_lattice *l, const kind *k, const dem_material *below)
+{
+    const dem_outline upper = SIZED(dem_outline, .size = {1.0, 1.0}, .centre = {0.0, 0.5 + 0.5 * height});
+    const dem_material above =
+        SIZED(dem_material, .youngs_modulus = 3e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0);
+    bool *is_upper = malloc((size_t)l->n_triangles * sizeof *is_upper);
+    dem_index *of = malloc((size_t)l->n_triangles * sizeof *of);
+    assert_ok(dem_lattice_inside(l, &upper, k->is_square ? 2 : 1, is_upper, NULL));
+    for (dem_index t = 0; t < l->n_triangles; t++) of[t] = k->is_layered && is_upper[t];
+    assert_ok(dem_lattice_assemble_mixed(l, (const dem_material[]){*below, above}, k->is_layered ? 2 : 1, of,
+                                         k->is_square ? 0.5 : 0.0));
+    free(is_upper);
+    free(of);
+}
+
 /* The same of the whole and of slabs, node by node. */
 static void finish_block(dem_lattice *l, const kind *k, double lift)
 {
@@ -41,7 +57,7 @@ static void finish_block(dem_lattice *l, const kind *k, double lift)
     const dem_material rubber =
         SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1050.0, .thickness = 1.0,
               .guard = 0.02, .damping_time = k->damping_time, .springs = k->springs);
-    assert_ok(k->is_square ? dem_lattice_assemble_squares(l, &rubber, 0.5) : dem_lattice_assemble(l, &rubber));
+    assemble(l, k, &rubber);
     dem_lattice_move(l, 0.02, (double[]){0.0, lift});
     assert_ok(dem_lattice_launch(l, down));
     if (!k->has_floor) rank_runs_set_off(l, 20.0, 1.0);
@@ -280,6 +296,17 @@ TEST(parts_that_are_not_connected_move_in_slabs_as_in_the_whole)
     const dem_outline slit = SIZED(dem_outline, .size = {1.0, 1.8 * spacing}, .centre = {0.0, 0.02}, .angle = 0.1);
     const dem_shape shape = SIZED(dem_shape, .outline = &triangle, .spacing = spacing, .n_voids = 1, .voids = &slit);
     check(&(kind){.has_floor = true, .shape = &shape, .method = DEM_METHOD_VERLET});
+}
+
+/* Slabs of the upper one lack arrays that those of the lower one have. */
+TEST(a_block_of_two_materials_in_slabs_moves_as_the_whole)
+{
+    check(&(kind){.has_floor = true, .is_layered = true, .method = DEM_METHOD_VERLET, .damping_time = 1e-6});
+    check(&(kind){.is_layered = true,
+                  .method = DEM_METHOD_FEHLBERG45,
+                  .jitter = 0.2,
+                  .springs = DEM_SPRINGS_COUPLED,
+                  .damping_time = 1e-6});
 }
 
 /* ---- what is refused ---- */

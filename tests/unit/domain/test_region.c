@@ -201,8 +201,8 @@ TEST(slabs_that_do_not_make_a_whole_are_refused_on_all_ranks)
     expect_refusal(&s, 3, "the slab of rank 1 begins with node");
     s.slabs[1].first_node--;
     expect_refusal(&s, 2, "the slabs of 2 ranks have");
-    free(s.slabs[2].lattice.guard);
-    s.slabs[2].lattice.guard = NULL;
-    expect_refusal(&s, 3, "the slabs of 3 ranks do not have the same arrays");
+    free(s.slabs[2].lattice.modulus);
+    s.slabs[2].lattice.modulus = NULL;
+    expect_refusal(&s, 3, "the slabs do not have the same arrays");
     free_scene(&s, 3);
 }
