@@ -98,22 +98,22 @@ static dem_index count_triangles(const range *g, dem_index first, dem_index end)
 /* ---- counts of all rows ---- */
 
 /* What is left in the rows before each, from the first one on, and before the end. NULL: all is. */
-typedef struct census {
+typedef struct row_counts {
     dem_index *nodes, *triangles; /* [rows + 1] */
-} census;
+} row_counts;
 
-static dem_index nodes_before(const cut_rows *c, const census *n, dem_index row)
+static dem_index nodes_before(const cut_rows *c, const row_counts *n, dem_index row)
 {
     return n->nodes != NULL ? n->nodes[row - c->whole.first] : nodes_below(&c->whole, row);
 }
 
-static dem_index triangles_before(const cut_rows *c, const census *n, dem_index row)
+static dem_index triangles_before(const cut_rows *c, const row_counts *n, dem_index row)
 {
     return n->triangles != NULL ? n->triangles[row - c->whole.first] : triangles_below(&c->whole, row);
 }
 
 /* Of rows from `first` on, before `end`. */
-static dem_status count_some(census *n, const cut_rows *c, dem_index first, dem_index end)
+static dem_status count_some(row_counts *n, const cut_rows *c, dem_index first, dem_index end)
 {
     range g;
     const dem_status status = open_range(&g, c, first - 1, end);
@@ -126,11 +126,11 @@ static dem_status count_some(census *n, const cut_rows *c, dem_index first, dem_
     return status;
 }
 
-static dem_status count_all(census *n, const cut_rows *c)
+static dem_status count_all(row_counts *n, const cut_rows *c)
 {
     const grid *w = &c->whole;
     const dem_index some = 1 + most_counted / (w->reach + 1);
-    *n = (census){0};
+    *n = (row_counts){0};
     if (c->mark == NULL) return DEM_OK;
     n->nodes = lattice_zeros(w->last - w->first + 2, sizeof *n->nodes);
     n->triangles = lattice_zeros(w->last - w->first + 2, sizeof *n->triangles);
@@ -142,12 +142,12 @@ static dem_status count_all(census *n, const cut_rows *c)
 
 /* ---- which rows are own ---- */
 
-static bool is_empty(const cut_rows *c, const census *n, dem_index row)
+static bool is_empty(const cut_rows *c, const row_counts *n, dem_index row)
 {
     return nodes_before(c, n, row) == nodes_before(c, n, row + 1);
 }
 
-static dem_index count_filled(const cut_rows *c, const census *n)
+static dem_index count_filled(const cut_rows *c, const row_counts *n)
 {
     dem_index filled = 0;
     for (dem_index row = c->whole.first; row <= c->whole.last; row++) filled += !is_empty(c, n, row);
@@ -164,7 +164,8 @@ static grid own_rows_evenly(const grid *whole, dem_index part, dem_index n_parts
 
 /* Parts end where they have, with those before, their share of the nodes, and have one row with nodes at least.
  * \param filled  number of rows with nodes */
-static grid own_rows_by_nodes(const cut_rows *c, const census *n, dem_index filled, dem_index part, dem_index n_parts)
+static grid own_rows_by_nodes(const cut_rows *c, const row_counts *n, dem_index filled, dem_index part,
+                              dem_index n_parts)
 {
     const double share = (double)nodes_before(c, n, c->whole.last + 1) / (double)n_parts;
     dem_index first = c->whole.first, row = first;
@@ -181,7 +182,7 @@ static grid own_rows_by_nodes(const cut_rows *c, const census *n, dem_index fill
     return rows_of(&c->whole, first, row - 1);
 }
 
-static dem_status find_own_rows(grid *own, const cut_rows *c, const census *n, dem_index part, dem_index n_parts)
+static dem_status find_own_rows(grid *own, const cut_rows *c, const row_counts *n, dem_index part, dem_index n_parts)
 {
     const dem_index filled = n->nodes != NULL ? count_filled(c, n) : c->whole.last - c->whole.first + 1;
     CHECK(filled > 0, DEM_ERROR_MODEL, "none of %lld nodes is left", (long long)grid_count_nodes(&c->whole));
@@ -205,7 +206,7 @@ typedef struct draft {
     bool *marked;           /* [n_nodes] the other nodes of these: the rim */
 } draft;
 
-static void place(draft *d, const cut_rows *c, const census *n, const grid *own)
+static void place(draft *d, const cut_rows *c, const row_counts *n, const grid *own)
 {
     const dem_index first = own->first > c->whole.first ? own->first - 1 : own->first;
     d->slab.n_nodes = nodes_before(c, n, c->whole.last + 1);
@@ -302,7 +303,7 @@ static dem_status finish(draft *d, range *g, const grid *own)
     return DEM_OK;
 }
 
-static dem_status make(dem_slab *out, const cut_rows *c, const census *n, const grid *own)
+static dem_status make(dem_slab *out, const cut_rows *c, const row_counts *n, const grid *own)
 {
     draft d = {.slab = dem_slab_empty()};
     range g;
@@ -324,7 +325,7 @@ static dem_status make(dem_slab *out, const cut_rows *c, const census *n, const 
 
 dem_status cut_rows_slab(dem_slab *out, const cut_rows *c, dem_index part, dem_index n_parts)
 {
-    census n;
+    row_counts n;
     grid own;
     dem_status status = count_all(&n, c);
     if (status == DEM_OK) status = find_own_rows(&own, c, &n, part, n_parts);
