@@ -478,7 +478,8 @@ static dem_status leave(const local_correction *p, changed_motion *tr, dem_index
 static dem_status leave_quadrature(const local_correction *p, changed_motion *tr, dem_index b)
 {
     const dem_index j = p->near.nodes.n + b;
-    changed_motion_part part = {p->rows[b], {.from = p->t, .dim = p->near.layout.dim}, jump_at(p, END, j)};
+    changed_motion_part part = {
+        p->rows[b], {.from = p->t, .dim = p->near.layout.dim, .parabolic = p->parabolic}, jump_at(p, END, j)};
     add_change_of_node(p, j, &part.end, &part.motion, &part.motion);
     return changed_motion_add(tr, &part);
 }

@@ -201,9 +201,9 @@ void changed_motion_end_rows(changed_motion *tr)
 
 /* ---- polynomials in powers of s ---- */
 
-/* Rewrites n terms c(s + r u) in powers of u, with r = 1 - s: first Taylor's shift by repeated Horner steps,
- * c_j += s c_(j+1), then each power k is scaled by r^k. */
-INLINE void shift(double (*c)[STATE_DIM_MOST], int n, int d, double s)
+/* Rewrites n terms c(s + r u) of components d and d + 1 in powers of u, with r = 1 - s: first Taylor's shift by
+ * repeated Horner steps, c_j += s c_(j+1), then each power k is scaled by r^k. */
+INLINE void shift_two(double (*c)[STATE_DIM_MOST], int n, int d, double s)
 {
     row_pair own[MOTION_TERMS];
     double power = 1.0 - s;
@@ -213,16 +213,24 @@ INLINE void shift(double (*c)[STATE_DIM_MOST], int n, int d, double s)
     for (int k = 1; k < n; k++, power *= 1.0 - s) row_pair_put(c[k], d, power * own[k]);
 }
 
+INLINE void shift(double (*c)[STATE_DIM_MOST], int n, int dim, double s)
+{
+    shift_two(c, n, 0, s);
+    if (dim > 2) shift_two(c, n, 2, s);
+}
+
 void motion_polynomial_restart(motion_polynomial *m, double from, double end)
 {
     const double length = end - m->from, s = length > 0.0 ? (from - m->from) / length : 0.0;
     m->from = from;
     if (s == 0.0) return;
-    shift(m->x, MOTION_TERMS, 0, s);
-    shift(m->v, MOTION_SLOPES, 0, s);
-    if (m->dim < 3) return;
-    shift(m->x, MOTION_TERMS, 2, s);
-    shift(m->v, MOTION_SLOPES, 2, s);
+    if (m->parabolic) {
+        shift(m->x, MOTION_PARABOLA, m->dim, s);
+        shift(m->v, MOTION_PARABOLA, m->dim, s);
+    } else {
+        shift(m->x, MOTION_TERMS, m->dim, s);
+        shift(m->v, MOTION_SLOPES, m->dim, s);
+    }
 }
 
 /* Adds the quintic Hermite polynomial through (x, v, a) at u = 0 and (x + dx, v + dv, a + da) at u = 1, in powers of u,
@@ -254,19 +262,21 @@ void motion_polynomial_add(const motion_polynomial *m, double end, const motion_
     const double h = end - m->from;
     to->from = m->from;
     to->dim = m->dim;
+    to->parabolic = false;
     add_quintic(m, h, at, by, 0, to);
     if (m->dim > 2) add_quintic(m, h, at, by, 2, to);
 }
 
 /* The same where the step has parabolas: x + h v u + (dx - h v) u^2 for positions, v + h a u + (dv - h a) u^2 for
  * velocities. Both are independent; the second is not the derivative of the first. */
-static inline void add_parabola(motion_polynomial *m, double h, const motion_change *at, const motion_change *by, int d)
+INLINE void add_parabola(motion_polynomial *m, double h, const motion_change *at, const motion_change *by, int d)
 {
-    const double v0 = h * at->v[d], a0 = h * at->a[d];
-    const double x[3] = {at->x[d], v0, by->x[d] - v0}, v[3] = {at->v[d], a0, by->v[d] - a0};
-    for (int k = 0; k < 3; k++) {
-        m->x[k][d] += x[k];
-        m->v[k][d] += v[k];
+    const row_pair v0 = h * row_pair_at(at->v, d), a0 = h * row_pair_at(at->a, d);
+    const row_pair x[MOTION_PARABOLA] = {row_pair_at(at->x, d), v0, row_pair_at(by->x, d) - v0},
+                   v[MOTION_PARABOLA] = {row_pair_at(at->v, d), a0, row_pair_at(by->v, d) - a0};
+    for (int k = 0; k < MOTION_PARABOLA; k++) {
+        row_pair_put(m->x[k], d, row_pair_at(m->x[k], d) + x[k]);
+        row_pair_put(m->v[k], d, row_pair_at(m->v[k], d) + v[k]);
     }
 }
 
@@ -275,6 +285,6 @@ void motion_polynomial_add_parabolas(const motion_polynomial *m, double end, con
 {
     const double h = end - m->from;
     if (to != m) motion_polynomial_copy(to, m);
-    for (int d = 0; d < 2; d++) add_parabola(to, h, at, by, d);
+    add_parabola(to, h, at, by, 0);
     if (m->dim > 2) add_parabola(to, h, at, by, 2);
 }

@@ -11,13 +11,15 @@
 #include "base/row_pair.h"
 #include "base/state.h"
 
-enum { MOTION_TERMS = 6, MOTION_SLOPES = MOTION_TERMS - 1 };
+enum { MOTION_TERMS = 6, MOTION_SLOPES = MOTION_TERMS - 1, MOTION_PARABOLA = 3 };
 
 /** Motion of a node from a time to the end of the step: coefficients of powers of s = (t - from)/(end - from). A
- *  velocity has one less than a position, whose derivative it is. */
+ *  velocity has one less than a position, whose derivative it is; where both are parabolas of their own,
+ *  MOTION_PARABOLA of each are written and read. */
 typedef struct motion_polynomial {
     double from; /* s */
     int dim;
+    bool parabolic;
     double x[MOTION_TERMS][STATE_DIM_MOST], v[MOTION_SLOPES][STATE_DIM_MOST]; /* [][dim] m, m/s */
 } motion_polynomial;
 
@@ -140,22 +142,38 @@ INLINE void motion_terms_at(const double (*c)[STATE_DIM_MOST], int n, int dim, d
 /** Position and velocity [dim] of a motion at s, 0 to 1. */
 static inline void motion_polynomial_position(const motion_polynomial *m, double s, double *x)
 {
-    motion_terms_at(m->x, MOTION_TERMS, m->dim, s, x);
+    if (m->parabolic)
+        motion_terms_at(m->x, MOTION_PARABOLA, m->dim, s, x);
+    else
+        motion_terms_at(m->x, MOTION_TERMS, m->dim, s, x);
 }
 
 static inline void motion_polynomial_velocity(const motion_polynomial *m, double s, double *v)
 {
-    motion_terms_at(m->v, MOTION_SLOPES, m->dim, s, v);
+    if (m->parabolic)
+        motion_terms_at(m->v, MOTION_PARABOLA, m->dim, s, v);
+    else
+        motion_terms_at(m->v, MOTION_SLOPES, m->dim, s, v);
 }
 
-/** Copies the components that there are. */
+INLINE void motion_terms_copy(double (*to)[STATE_DIM_MOST], const double (*from)[STATE_DIM_MOST], int n, int dim)
+{
+    for (int d = 0; d < dim; d += 2)
+        for (int k = 0; k < n; k++) row_pair_put(to[k], d, row_pair_at(from[k], d));
+}
+
+/** Copies the components and terms that there are. */
 static inline void motion_polynomial_copy(motion_polynomial *to, const motion_polynomial *from)
 {
     to->from = from->from;
     to->dim = from->dim;
-    for (int d = 0; d < from->dim; d += 2) {
-        for (int k = 0; k < MOTION_TERMS; k++) row_pair_put(to->x[k], d, row_pair_at(from->x[k], d));
-        for (int k = 0; k < MOTION_SLOPES; k++) row_pair_put(to->v[k], d, row_pair_at(from->v[k], d));
+    to->parabolic = from->parabolic;
+    if (from->parabolic) {
+        motion_terms_copy(to->x, from->x, MOTION_PARABOLA, from->dim);
+        motion_terms_copy(to->v, from->v, MOTION_PARABOLA, from->dim);
+    } else {
+        motion_terms_copy(to->x, from->x, MOTION_TERMS, from->dim);
+        motion_terms_copy(to->v, from->v, MOTION_SLOPES, from->dim);
     }
 }
 

@@ -19,16 +19,19 @@
  *   x(s) = x0 + h (integral of w from 0 to s) + D B(s),   v(s) = w(s) + D B'(s)/h.
  * B goes from 0 to 1 and has B' = B'' = 0 at both ends: D closes the position and leaves v and a at the ends alone. */
 typedef struct basis {
-    double h, s;
+    double t, h, s;
     double v0, a0, v1, a1;     /* of the velocity: factors of v0, h a0, v1, h a1 in w */
     double iv0, ia0, iv1, ia1; /* of its integral from 0 to s */
     double bump, slope;        /* B, B' */
 } basis;
 
-static basis basis_at(const dense_output *p, double t)
+/* Parabolas need h and s alone: where `parabolic` is a constant the compiler leaves out the rest. */
+INLINE basis basis_at(bool parabolic, const dense_output *p, double t)
 {
     const double h = p->t1 - p->t0, s = (t - p->t0) / h, s2 = s * s, s3 = s2 * s;
-    return (basis){.h = h,
+    if (parabolic) return (basis){.t = t, .h = h, .s = s};
+    return (basis){.t = t,
+                   .h = h,
                    .s = s,
                    .v0 = 1.0 - s2 * (3.0 - 2.0 * s),
                    .a0 = s * (1.0 - s) * (1.0 - s),
@@ -104,7 +107,7 @@ static bool turned(const dense_output *p, dem_index i)
 /* The third component, of three-dimensional states only; x or v may be NULL. Kept apart from the other two. */
 static void interpolate_third(const dense_output *p, double t, dem_index k, double *x, double *v)
 {
-    const basis b = basis_at(p, t);
+    const basis b = basis_at(p->parabolic, p, t);
     const ends e = ends_of(p);
     if (x != NULL) *x = position(p->parabolic, &e, &b, k);
     if (v != NULL) *v = velocity(p->parabolic, &e, &b, k);
@@ -118,49 +121,61 @@ static inline void put_pair(bool parabolic, const ends *e, const basis *b, dem_i
     for (int d = 0; d < 2; d++) out[d] = x[d];
 }
 
-/* As if no event inside had changed it. */
-static void position_by(const dense_output *p, double t, const basis *b, dem_index i, double *out)
+/* As if no event inside had changed it. `parabolic` is a constant wherever these are called, too. */
+INLINE void position_by(bool parabolic, const dense_output *p, const basis *b, dem_index i, double *out)
 {
     const dem_index k = state_row(&p->layout, i);
     const ends e = ends_of(p);
-    if (t == p->t0) {
+    if (b->t == p->t0) {
         state_copy_row(&p->layout, out, p->y0 + k);
         return;
     }
-    put_pair(p->parabolic, &e, b, k, out);
-    if (p->layout.dim > 2) interpolate_third(p, t, k + 2, &out[2], NULL);
+    put_pair(parabolic, &e, b, k, out);
+    if (p->layout.dim > 2) interpolate_third(p, b->t, k + 2, &out[2], NULL);
 }
 
-static void velocity_by(const dense_output *p, double t, const basis *b, dem_index i, double *out)
+INLINE void velocity_by(bool parabolic, const dense_output *p, const basis *b, dem_index i, double *out)
 {
     const dem_index k = state_row(&p->layout, i);
     const ends e = ends_of(p);
-    if (t == p->t0) {
+    if (b->t == p->t0) {
         state_copy_row(&p->layout, out, state_v(&p->layout, p->y0, i));
         return;
     }
-    const double first = velocity(p->parabolic, &e, b, k), second = velocity(p->parabolic, &e, b, k + 1);
+    const double first = velocity(parabolic, &e, b, k), second = velocity(parabolic, &e, b, k + 1);
     out[0] = first;
     out[1] = second;
-    if (p->layout.dim > 2) interpolate_third(p, t, k + 2, NULL, &out[2]);
+    if (p->layout.dim > 2) interpolate_third(p, b->t, k + 2, NULL, &out[2]);
+}
+
+INLINE void position_at(bool parabolic, const dense_output *p, double t, dem_index i, double *out)
+{
+    const basis b = basis_at(parabolic, p, t);
+    position_by(parabolic, p, &b, i, out);
+}
+
+INLINE void velocity_at(bool parabolic, const dense_output *p, double t, dem_index i, double *out)
+{
+    const basis b = basis_at(parabolic, p, t);
+    velocity_by(parabolic, p, &b, i, out);
 }
 
 void dense_output_position_inside(const dense_output *p, double t, dem_index i, double *out)
 {
-    if (turned(p, i)) {
+    if (turned(p, i))
         changed_motion_position(p->changed, t, i, out);
-        return;
-    }
-    const basis b = basis_at(p, t);
-    position_by(p, t, &b, i, out);
-    if (has_changed(p, i)) changed_motion_row_at(p->changed, t, i, out, NULL);
+    else if (p->parabolic)
+        position_at(true, p, t, i, out);
+    else
+        position_at(false, p, t, i, out);
+    if (i >= p->layout.n_nodes && has_changed(p, i)) changed_motion_row_at(p->changed, t, i, out, NULL);
 }
 
 /* Of two dimensions, inside the step. `parabolic` is a constant wherever this is called. */
 static inline void put_inside(bool parabolic, const dense_output *p, double t, const int32_t *list, int n, double *x)
 {
     const ends e = ends_of(p);
-    const basis b = basis_at(p, t);
+    const basis b = basis_at(parabolic, p, t);
     for (int j = 0; j < n; j++) {
         double *out = x + 2 * (dem_index)list[j];
         if (has_changed(p, list[j]))
@@ -183,19 +198,25 @@ void dense_output_put_positions(const dense_output *p, double t, const int32_t *
 
 void dense_output_velocity_inside(const dense_output *p, double t, dem_index i, double *out)
 {
-    if (turned(p, i)) {
+    if (turned(p, i))
         changed_motion_velocity(p->changed, t, i, out);
-        return;
-    }
-    const basis b = basis_at(p, t);
-    velocity_by(p, t, &b, i, out);
-    if (has_changed(p, i)) changed_motion_row_at(p->changed, t, i, NULL, out);
+    else if (p->parabolic)
+        velocity_at(true, p, t, i, out);
+    else
+        velocity_at(false, p, t, i, out);
+    if (i >= p->layout.n_nodes && has_changed(p, i)) changed_motion_row_at(p->changed, t, i, NULL, out);
+}
+
+INLINE void put_node(bool parabolic, const dense_output *p, const basis *b, dem_index i, double *x, double *v)
+{
+    position_by(parabolic, p, b, i, x);
+    velocity_by(parabolic, p, b, i, v);
 }
 
 /* One basis serves all nodes that no event has changed. */
 void dense_output_put_nodes(const dense_output *p, double t, dem_index n, const dem_index *nodes, double *x, double *v)
 {
-    const basis b = basis_at(p, t);
+    const basis b = p->parabolic ? basis_at(true, p, t) : basis_at(false, p, t);
     for (dem_index j = 0; j < n; j++, x += p->layout.dim, v += p->layout.dim)
         if (t == p->t1) {
             state_copy_row(&p->layout, x, state_x(&p->layout, p->y1, nodes[j]));
@@ -203,10 +224,10 @@ void dense_output_put_nodes(const dense_output *p, double t, dem_index n, const 
         } else if (turned(p, nodes[j])) {
             changed_motion_position(p->changed, t, nodes[j], x);
             changed_motion_velocity(p->changed, t, nodes[j], v);
-        } else {
-            position_by(p, t, &b, nodes[j], x);
-            velocity_by(p, t, &b, nodes[j], v);
-        }
+        } else if (p->parabolic)
+            put_node(true, p, &b, nodes[j], x, v);
+        else
+            put_node(false, p, &b, nodes[j], x, v);
 }
 
 /* Interpolates all components of x and v, those of the quadratures too, as if no event inside had changed them. */
@@ -214,7 +235,7 @@ static inline void fill(bool parabolic, const dense_output *p, double t, double 
 {
     const dem_index n = state_velocities(&p->layout);
     const ends e = ends_of(p);
-    const basis b = basis_at(p, t);
+    const basis b = basis_at(parabolic, p, t);
     for (dem_index k = 0; k < n; k++) {
         y[k] = position(parabolic, &e, &b, k);
         y[n + k] = velocity(parabolic, &e, &b, k);
@@ -288,18 +309,17 @@ INLINE void write_quintic(const ends *e, const step_length *l, dem_index k, int 
     for (int q = 1; q < MOTION_TERMS; q++) row_pair_put(out->x[q], d, l->parts[q] * v[q - 1]);
 }
 
-/* The two parabolas in powers of s; see parabola(). The higher powers are 0. */
-static inline void write_parabolas(const ends *e, double h, dem_index k, int d, motion_polynomial *out)
+/* The two parabolas in powers of s; see parabola(). */
+INLINE void write_parabolas(const ends *e, double h, dem_index k, int d, motion_polynomial *out)
 {
-    const double v0 = e->v0[k], x[2] = {e->x0[k], h * v0}, v[2] = {v0, h * e->a0[k]};
-    for (int q = 0; q < 2; q++) {
-        out->x[q][d] = x[q];
-        out->v[q][d] = v[q];
-    }
-    out->x[2][d] = e->x1[k] - x[0] - x[1];
-    out->v[2][d] = e->v1[k] - v[0] - v[1];
-    for (int q = 3; q < MOTION_TERMS; q++) out->x[q][d] = 0.0;
-    for (int q = 3; q < MOTION_SLOPES; q++) out->v[q][d] = 0.0;
+    const row_pair x0 = row_pair_at(e->x0 + k, d), v0 = row_pair_at(e->v0 + k, d);
+    const row_pair x = h * v0, v = h * row_pair_at(e->a0 + k, d);
+    row_pair_put(out->x[0], d, x0);
+    row_pair_put(out->x[1], d, x);
+    row_pair_put(out->x[2], d, row_pair_at(e->x1 + k, d) - x0 - x);
+    row_pair_put(out->v[0], d, v0);
+    row_pair_put(out->v[1], d, v);
+    row_pair_put(out->v[2], d, row_pair_at(e->v1 + k, d) - v0 - v);
 }
 
 /* As if no event inside had changed it. */
@@ -309,12 +329,12 @@ static void write_motion(const dense_output *p, const step_length *l, dem_index 
     const ends e = ends_of(p);
     out->from = p->t0;
     out->dim = p->layout.dim;
-    if (!p->parabolic) {
-        write_quintic(&e, l, k, 0, out);
-        if (out->dim > 2) write_quintic(&e, l, k, 2, out);
-        return;
-    }
-    for (int d = 0; d < out->dim; d++) write_parabolas(&e, l->h, k + d, d, out);
+    out->parabolic = p->parabolic;
+    for (int d = 0; d < out->dim; d += 2)
+        if (p->parabolic)
+            write_parabolas(&e, l->h, k, d, out);
+        else
+            write_quintic(&e, l, k, d, out);
 }
 
 void dense_output_motions(const dense_output *p, dem_index n, const dem_index *nodes, motion_polynomial *out)
