@@ -270,6 +270,59 @@ void dense_output_state(const dense_output *p, double t, double *y)
     }
 }
 
+/* ---- hulls ---- */
+
+/* The control points of Bezier's form, whose convex hull has the curve in it. Of a polynomial of degree n with the
+ * coefficients c_j of s^j they are the sums over j of C(i,j) c_j/C(n,j), which are added up as in Pascal's triangle. */
+INLINE void hull_of(const motion_polynomial *m, int n, const double *shares, double *hull)
+{
+    for (int d = 0; d < m->dim; d += 2) {
+        row_pair sums[MOTION_TERMS];
+        for (int j = 0; j < n; j++) sums[j] = shares[j] * row_pair_at(m->x[j], d);
+        UNROLLED for (int k = 1; k < n; k++) UNROLLED for (int j = n - 1; j >= k; j--) sums[j] += sums[j - 1];
+        for (int j = 0; j < n; j++) row_pair_put(hull + j * m->dim, d, sums[j]);
+    }
+}
+
+static const double parabola_shares[MOTION_PARABOLA] = {1.0, 0.5, 1.0};
+static const double quintic_shares[MOTION_TERMS] = {1.0, 0.2, 0.1, 0.1, 0.2, 1.0};
+
+/* The same by values and derivatives at the ends. */
+INLINE void hull_of_ends(bool parabolic, const dense_output *p, dem_index row, double *hull)
+{
+    const ends e = ends_of(p);
+    const int dim = p->layout.dim;
+    const double h = p->t1 - p->t0, a = h * h / 20.0;
+    for (int d = 0; d < dim; d += 2) {
+        const row_pair x0 = row_pair_at(e.x0 + row, d), v0 = h * row_pair_at(e.v0 + row, d),
+                       x1 = row_pair_at(e.x1 + row, d);
+        row_pair_put(hull, d, x0);
+        row_pair_put(hull + dim, d, parabolic ? x0 + 0.5 * v0 : x0 + 0.2 * v0);
+        row_pair_put(hull + (parabolic ? 2 : 5) * dim, d, x1);
+        if (parabolic) continue;
+        const row_pair v1 = h * row_pair_at(e.v1 + row, d);
+        row_pair_put(hull + 2 * dim, d, x0 + 0.4 * v0 + a * row_pair_at(e.a0 + row, d));
+        row_pair_put(hull + 3 * dim, d, x1 - 0.4 * v1 + a * row_pair_at(e.a1 + row, d));
+        row_pair_put(hull + 4 * dim, d, x1 - 0.2 * v1);
+    }
+}
+
+int dense_output_hull(const dense_output *p, dem_index node, double *hull)
+{
+    const dem_index row = state_row(&p->layout, node);
+    const motion_polynomial *changed = turned(p, node) ? changed_motion_of(p->changed, node) : NULL;
+    const bool parabolic = changed != NULL ? changed->parabolic : p->parabolic;
+    if (changed != NULL && parabolic)
+        hull_of(changed, MOTION_PARABOLA, parabola_shares, hull);
+    else if (changed != NULL)
+        hull_of(changed, MOTION_TERMS, quintic_shares, hull);
+    else if (parabolic)
+        hull_of_ends(true, p, row, hull);
+    else
+        hull_of_ends(false, p, row, hull);
+    return parabolic ? MOTION_PARABOLA : DENSE_OUTPUT_HULL;
+}
+
 /* h of the step, and what follows from it alone: 1/h, h/q. */
 typedef struct step_length {
     double h, per_h, parts[MOTION_TERMS];

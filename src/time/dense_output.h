@@ -51,6 +51,12 @@ void dense_output_put_nodes(const dense_output *p, double t, dem_index n, const 
  *  of many nodes in less time. */
 void dense_output_put_positions(const dense_output *p, double t, const int32_t *list, int n, double *x);
 
+enum { DENSE_OUTPUT_HULL = MOTION_TERMS };
+
+/** Points [DENSE_OUTPUT_HULL][dim] in whose convex hull a node stays, but for rounding, from the start of the step, or
+ *  from the last event that has changed its motion, to t1.  \return how many */
+int dense_output_hull(const dense_output *p, dem_index node, double *hull);
+
 /** The motions [n] of nodes: over the whole step, or from the last event inside that has changed it. */
 void dense_output_motions(const dense_output *p, dem_index n, const dem_index *nodes, motion_polynomial *out);
 

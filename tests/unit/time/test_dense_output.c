@@ -213,6 +213,49 @@ TEST(the_motion_of_a_node_is_the_same_as_a_polynomial)
     }
 }
 
+/* The Bezier curve of control points [n][dim], summed up by Bernstein's polynomials, which are not negative and have
+ * the sum 1: it is in the hull of the points. */
+static double bezier(const double *control, int n, int dim, int d, double s)
+{
+    double sum = 0.0, binomial = 1.0;
+    for (int k = 0; k < n; k++) {
+        sum += binomial * pow(s, k) * pow(1.0 - s, n - 1 - k) * control[dim * k + d];
+        binomial *= (double)(n - 1 - k) / (k + 1);
+    }
+    return sum;
+}
+
+/* Of steps, and of motions that an event has changed: terms of order 10. */
+TEST(a_node_stays_in_its_hull_whose_points_make_its_motion)
+{
+    for (int q = 0; q < 8; q++) {
+        step s;
+        CLEANUP(changed_motion_destroy) changed_motion changed;
+        motion_polynomial *way;
+        double hull[DENSE_OUTPUT_HULL * STATE_DIM_MOST];
+        const int dim = 2 + q / 4;
+        make_step(&s, dim, &swing, 0.5, 1.75);
+        s.dense.parabolic = q % 2 == 1;
+        assert_ok(changed_motion_create(&changed, &s.dense.layout));
+        changed_motion_start(&changed, 1.75, s.y1, s.f1);
+        const double from = q % 4 < 2 ? 0.5 : 1.0;
+        if (q % 4 >= 2) {
+            motion_polynomial m;
+            dense_output_motions(&s.dense, 1, &(dem_index){1}, &m);
+            motion_polynomial_restart(&m, from, 1.75);
+            assert_ok(changed_motion_take(&changed, 1, &way));
+            motion_polynomial_copy(way, &m);
+        }
+        s.dense.changed = &changed;
+        const int n = dense_output_hull(&s.dense, 1, hull);
+        assert_int_equal(n, s.dense.parabolic ? 3 : 6);
+        for (double share = 0.0; share <= 1.0; share += 0.125) {
+            const node_motion expected = motion_at(&s.dense, from + (1.75 - from) * share, 1);
+            for (int d = 0; d < dim; d++) assert_close(bezier(hull, n, dim, d, share), expected.x[d], 2e-14);
+        }
+    }
+}
+
 /* Largest errors over a step of length h from t = 0.4. */
 static void errors_of_swing(double h, double *position, double *velocity)
 {
