@@ -65,9 +65,9 @@ static inline double clearance(const box *b, vec2 x, double margin)
     return 0.25 * (1.0 - BOX_TREE_ROUNDING) * (dx * dx + dy * dy);
 }
 
-/* Gap in the obstacle's own frame: visits the nearer box first, and passes over boxes that are further than the nearest
- * segment found so far. */
-static obstacle_gap gap_inside(const obstacle_set *o, vec2 x, double margin, dem_index obstacle)
+/* Gap in the obstacle's own frame to all its segments but one (-1: none is left out): visits the nearer box first, and
+ * passes over boxes that are further than the nearest segment found so far. */
+static obstacle_gap gap_inside(const obstacle_set *o, vec2 x, double margin, dem_index obstacle, dem_index without)
 {
     const box_tree *tree = &o->trees[obstacle];
     const double longer = (1.0 + BOX_TREE_ROUNDING) * margin;
@@ -81,7 +81,7 @@ static obstacle_gap gap_inside(const obstacle_set *o, vec2 x, double margin, dem
             continue;
         }
         for (dem_index k = box_tree_first(tree, node); k < box_tree_first(tree, node + 1); k++)
-            take_nearer(o, first + k, x, margin, &nearest);
+            if (first + k != without) take_nearer(o, first + k, x, margin, &nearest);
         walk.limit = nearest.distance * nearest.distance;
         node = box_tree_back(&walk);
     }
@@ -91,9 +91,9 @@ static obstacle_gap gap_inside(const obstacle_set *o, vec2 x, double margin, dem
 /* The point is taken to the obstacle's frame, and the normal is turned back. */
 obstacle_gap obstacles_gap_of(const obstacle_set *o, double t, vec2 x, double margin, dem_index obstacle)
 {
-    if (!o->laws[obstacle].moves) return gap_inside(o, x, margin, obstacle);
+    if (!o->laws[obstacle].moves) return gap_inside(o, x, margin, obstacle, -1);
     const pose at = motion_law_pose(&o->laws[obstacle], t);
-    obstacle_gap gap = gap_inside(o, pose_inside(&at, x), margin, obstacle);
+    obstacle_gap gap = gap_inside(o, pose_inside(&at, x), margin, obstacle, -1);
     gap.normal = pose_turn(&at, gap.normal);
     return gap;
 }
@@ -109,6 +109,23 @@ obstacle_gap obstacles_gap(const obstacle_set *o, double t, vec2 x, double margi
         if (gap.distance < smallest.distance) smallest = gap;
     }
     return smallest;
+}
+
+/* By how much the radius of a lone segment is smaller than what is computed for it, against rounding. */
+static const double spare = 1e-3;
+
+/* Within a radius r a height changes by r at most, as does the distance to another segment, but for the margin by
+ * which a free end counts as longer. */
+obstacle_lone_segment obstacles_lone_segment(const obstacle_set *o, vec2 x, double margin)
+{
+    if (o->n != 1 || o->laws[0].moves) return (obstacle_lone_segment){.radius = 0.0};
+    const obstacle_gap gap = gap_inside(o, x, margin, 0, -1);
+    if (gap.segment < 0) return (obstacle_lone_segment){.radius = 0.0};
+    const segment *s = &o->segments[gap.segment];
+    const double place = segment_place(s, x), room = fmin(place, s->length - place);
+    const double other = fabs(gap_inside(o, x, margin, 0, gap.segment).distance);
+    const double apart = 0.5 * (other - fabs(gap.distance)) - margin;
+    return (obstacle_lone_segment){x, (1.0 - spare) * fmax(0.0, fmin(room, apart)), gap.segment};
 }
 
 /* Within the tolerance of the segment's line, and of the segment along it. */

@@ -22,6 +22,32 @@ obstacle_gap obstacles_gap(const obstacle_set *o, double t, vec2 x, double margi
  *  vertex is in front if it is on the side of the vertex's mean normal; nearest to a free end, it is in front. */
 obstacle_gap obstacles_gap_of(const obstacle_set *o, double t, vec2 x, double margin, dem_index obstacle);
 
+/** A lone segment: within a radius of a place the nearest place of all obstacles is on it, and is no end of it, so that
+ *  the gap of a point there is its height over the segment's line. */
+typedef struct obstacle_lone_segment {
+    vec2 centre;
+    double radius;     /* m; 0: no segment is alone there */
+    dem_index segment; /* of an obstacle at rest */
+} obstacle_lone_segment;
+
+/** The lone segment about x, for a radius that is easily found; none where there are several obstacles, or one that
+ *  moves.
+ *  \param margin  m, the gaps are those of obstacles_gap() with this margin */
+obstacle_lone_segment obstacles_lone_segment(const obstacle_set *o, vec2 x, double margin);
+
+static inline bool obstacle_lone_covers(const obstacle_lone_segment *a, vec2 x)
+{
+    const vec2 from = vec2_sub(x, a->centre);
+    return vec2_dot(from, from) < a->radius * a->radius;
+}
+
+/** obstacles_gap() of a point that it covers, to the bit. */
+static inline obstacle_gap obstacle_lone_gap(const obstacle_set *o, const obstacle_lone_segment *a, vec2 x)
+{
+    const segment *s = &o->segments[a->segment];
+    return (obstacle_gap){segment_height(s, x), a->segment, s->normal};
+}
+
 /** How near a point must be to touch. */
 typedef struct obstacle_touch {
     double tolerance;  /* m, to the line and along it */

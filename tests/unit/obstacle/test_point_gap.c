@@ -216,6 +216,53 @@ static void assert_same_gap(obstacle_gap actual, obstacle_gap expected)
     assert_true(actual.normal.x == expected.normal.x && actual.normal.y == expected.normal.y);
 }
 
+/* As far as half the way to the next segment, whose nearest point is the vertex, is further than the first. */
+TEST(a_segment_is_alone_up_to_where_another_might_be_nearer)
+{
+    CLEANUP(obstacles_free) obstacle_set o = compile(valley, 4, 0.0);
+    const obstacle_lone_segment above = obstacles_lone_segment(&o, (vec2){-1.0, 0.3}, 0.0),
+                                near = obstacles_lone_segment(&o, (vec2){2.5, -0.99}, 0.0);
+    assert_int_equal(above.segment, 0);
+    assert_close(above.radius, 0.999 * 0.5 * (sqrt(1.09) - 0.3), 1e-15);
+    assert_int_equal(near.segment, 2);
+    assert_close(near.radius, 0.999 * 0.5, 1e-15);
+}
+
+TEST(beside_a_segment_and_between_several_obstacles_none_is_alone)
+{
+    CLEANUP(obstacles_free) obstacle_set o = compile(valley, 4, 0.0), both = compile_both();
+    const vec2 off_a_vertex = {0.3, 0.4}, beyond_an_end = {-2.3, 0.1}, above = {-1.0, 0.3};
+    assert_true(obstacles_lone_segment(&o, above, 0.0).radius > 0.0);
+    assert_close(obstacles_lone_segment(&o, off_a_vertex, 0.0).radius, 0.0, 0.0);
+    assert_close(obstacles_lone_segment(&o, beyond_an_end, 0.0).radius, 0.0, 0.0);
+    assert_close(obstacles_lone_segment(&both, above, 0.0).radius, 0.0, 0.0);
+    assert_false(obstacle_lone_covers(&(obstacle_lone_segment){.radius = 0.0}, (vec2){0.0, 0.0}));
+}
+
+/* Points up to the radius; some of them nearer to a vertex than the centre is, or behind the line. */
+TEST(where_a_segment_is_alone_the_gap_is_the_height_over_it_to_the_bit)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(obstacles_free) obstacle_set closed = compile(star, 13, 0.0), open = compile(valley, 4, 0.0);
+    int n_alone = 0;
+    for (int k = 0; k < 4000; k++) {
+        const obstacle_set *o = k % 2 == 0 ? &closed : &open;
+        const double margin = k % 4 < 2 ? 0.0 : 1e-3;
+        const vec2 centre = random_point(rng);
+        const obstacle_lone_segment lone = obstacles_lone_segment(o, centre, margin);
+        n_alone += lone.radius > 0.0;
+        for (int q = 0; q < 20 && lone.radius > 0.0; q++) {
+            const double r = lone.radius * (q % 2 == 0 ? 0.9999 : gsl_rng_uniform(rng)), turn = 0.31 * q;
+            const vec2 x = {centre.x + r * cos(turn), centre.y + r * sin(turn)};
+            const obstacle_gap expected = obstacles_gap(o, 0.0, x, margin, -1, -1),
+                               found = obstacle_lone_gap(o, &lone, x);
+            assert_true(obstacle_lone_covers(&lone, x));
+            assert_same_gap(found, expected);
+        }
+    }
+    assert_true(n_alone > 1000);
+}
+
 static void compare_gaps(const obstacle_set *o, vec2 x, double margin)
 {
     obstacle_gap smallest = {(double)INFINITY, -1, {0.0, 0.0}}, but_first = smallest;
