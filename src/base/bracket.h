@@ -21,7 +21,9 @@ static inline double bracket_trial(const bracket *b, double width)
     enum { most_secants = 24 };
     const double secant = b->before + (b->after - b->before) * b->above / (b->above - b->below);
     if (b->n >= most_secants || !(secant >= b->before && secant <= b->after)) return 0.5 * (b->before + b->after);
-    return fmin(fmax(secant, b->before + 0.5 * width), b->after - 0.5 * width);
+    const double low = b->before + 0.5 * width, high = b->after - 0.5 * width;
+    const double up = secant > low ? secant : low; /* fmax() is a call */
+    return up < high ? up : high;
 }
 
 /* Narrows the bracket to the side of t on which the root is; `beyond` says that the event has happened at t. */

@@ -29,7 +29,7 @@ candidate_positions candidate_place_at(const contact_candidate *candidate, const
 
 /* The signed distance of a node to the obstacles, but for the one that it is behind and the one of its closed contact:
  * that obstacle's other segments are reached past the end of this one, which has a root function of its own. */
-static contact_gap node_gap(const contact_scene *scene, const contact_candidate *candidate, surface_query at)
+contact_gap candidate_searched_gap(const contact_scene *scene, const contact_candidate *candidate, surface_query at)
 {
     const surface_feature on = contact_point_feature(candidate, candidate->closed[0].feature);
     const dem_index without[2] = {candidate->behind[0], candidate->n_closed > 0 ? surface_obstacle(scene, on) : -1};
@@ -103,7 +103,7 @@ contact_gap candidate_exact_gap(const contact_scene *scene, const contact_candid
 {
     if (candidate->n_closed == 2 || candidate->clearance.inactive) return (contact_gap){INFINITY, -1, 0.0, {0.0, 0.0}};
     return candidate_is_edge(candidate) ? edge_gap(scene, candidate, spot)
-                                        : node_gap(scene, candidate, (surface_query){spot->t, spot->a});
+                                        : candidate_node_gap(scene, candidate, (surface_query){spot->t, spot->a});
 }
 
 /* The edge counts as longer at both ends by the reach, and its neighbours are left out of the question. */
@@ -135,7 +135,7 @@ double candidate_clearance(const contact_scene *scene, const contact_candidate *
                            const candidate_positions *spot, dem_index *nearest)
 {
     if (candidate_is_edge(candidate)) return edge_clearance(scene, candidate, spot);
-    const contact_gap gap = node_gap(scene, candidate, (surface_query){spot->t, spot->a});
+    const contact_gap gap = candidate_node_gap(scene, candidate, (surface_query){spot->t, spot->a});
     *nearest = gap.feature;
     return gap.distance;
 }

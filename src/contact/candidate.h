@@ -27,6 +27,12 @@ typedef struct candidate_positions {
 candidate_positions candidate_place(const contact_candidate *candidate, double t, const double *x);
 candidate_positions candidate_place_at(const contact_candidate *candidate, const dense_output *p, double t);
 
+/** Whether no obstacle is left out of a candidate's gap: it is a free node, and behind nothing. */
+static inline bool candidate_meets_all(const contact_candidate *candidate)
+{
+    return candidate->n_closed == 0 && candidate->behind[0] < 0 && !candidate_is_edge(candidate);
+}
+
 /** Bound of how far a candidate and the obstacles have moved towards each other since its clearance was measured, m. */
 double candidate_moved(const contact_scene *scene, const contact_candidate *candidate, const candidate_positions *spot);
 
@@ -40,11 +46,25 @@ contact_gap candidate_gap(const contact_scene *scene, const contact_candidate *c
 contact_gap candidate_exact_gap(const contact_scene *scene, const contact_candidate *candidate,
                                 const candidate_positions *spot);
 
+/** The gap of a node at a place by a search. */
+contact_gap candidate_searched_gap(const contact_scene *scene, const contact_candidate *candidate, surface_query at);
+
+/** The same: of what its lone segment covers without one. */
+static inline contact_gap candidate_node_gap(const contact_scene *scene, const contact_candidate *candidate,
+                                             surface_query at)
+{
+    if (!candidate_meets_all(candidate) || !obstacle_lone_covers(&candidate->lone, at.x))
+        return candidate_searched_gap(scene, candidate, at);
+    const obstacle_gap height = surface_lone_gap(scene, &candidate->lone, at.x);
+    return (contact_gap){height.distance, height.segment, 0.0, height.normal};
+}
+
 /** Root function of a gap, m: gap + penetration tolerance. It is bounded: where there is nothing to touch the gap is
  *  infinite. */
 static inline double contact_gap_guard(const contact_scene *scene, const contact_gap *gap)
 {
-    return fmin(gap->distance, 1.0) + scene->rule.penetration_tolerance;
+    const double most = 1.0; /* fmin() is a call */
+    return (gap->distance < most ? gap->distance : most) + scene->rule.penetration_tolerance;
 }
 
 /** contact_gap_velocity() where some surfaces move: a function of its own, so that others do not pay for it. */

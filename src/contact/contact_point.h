@@ -57,6 +57,7 @@ typedef struct contact_candidate {
     int n_closed;        /* 0 free; 1; a node in a corner, an edge on two vertices: 2 */
     contact_point closed[2];
     contact_clearance clearance;
+    obstacle_lone_segment lone; /* of a node, about where it was when none was known there */
     contact_storm storm;
 } contact_candidate;
 

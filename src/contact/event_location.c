@@ -12,25 +12,34 @@
 #include "base/bracket.h"
 #include "contact/node_motion.h"
 
-/* A free candidate at one time, and its root function there. */
+/* The gap of a free candidate at one time, and its root function there. */
 typedef struct sample {
-    candidate_positions spot;
-    contact_gap gap;
+    double t; /* s */
     double guard;
+    contact_gap gap;
 } sample;
 
 /* The gap is exact: a lower bound has no slope that shows a dip. A vertex that seems to be behind an edge which has not
  * used up its clearance has not come through it, and counts as far as the clearance says, as it does where the event
  * would be resolved: in a body folded over itself it may lie behind an edge's line, in another part of the body. */
+static sample sample_edge(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
+                          double t)
+{
+    const candidate_positions spot = candidate_place_at(candidate, p, t);
+    sample s = {.t = t, .gap = candidate_exact_gap(scene, candidate, &spot)};
+    s.guard = contact_gap_guard(scene, &s.gap);
+    if (s.guard > 0.0) return s;
+    const contact_gap bound = candidate_gap(scene, candidate, &spot);
+    s.guard = contact_gap_guard(scene, &bound);
+    return s;
+}
+
 static sample sample_at(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p, double t)
 {
-    sample s = {.spot = candidate_place_at(candidate, p, t)};
-    s.gap = candidate_exact_gap(scene, candidate, &s.spot);
+    if (candidate_is_edge(candidate)) return sample_edge(scene, candidate, p, t);
+    const surface_query at = {t, node_motion_position(p, t, candidate->node)};
+    sample s = {.t = t, .gap = candidate_node_gap(scene, candidate, at)};
     s.guard = contact_gap_guard(scene, &s.gap);
-    if (s.guard <= 0.0 && candidate_is_edge(candidate)) {
-        const contact_gap bound = candidate_gap(scene, candidate, &s.spot);
-        s.guard = contact_gap_guard(scene, &bound);
-    }
     return s;
 }
 
@@ -44,11 +53,13 @@ static double guard_at(const contact_scene *scene, const contact_candidate *cand
 static double slope_of(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                        const sample *s)
 {
-    vec2 v = node_motion_velocity(p, s->spot.t, candidate->node);
+    vec2 v = node_motion_velocity(p, s->t, candidate->node);
     if (candidate_is_edge(candidate))
         v = vec2_add(vec2_scale(1.0 - s->gap.place, v),
-                     vec2_scale(s->gap.place, node_motion_velocity(p, s->spot.t, candidate->other)));
-    return vec2_dot(s->gap.normal, contact_gap_velocity(scene, candidate, &s->gap, &s->spot, v));
+                     vec2_scale(s->gap.place, node_motion_velocity(p, s->t, candidate->other)));
+    if (surface_speed(scene) == 0.0) return vec2_dot(s->gap.normal, v);
+    const candidate_positions spot = candidate_place_at(candidate, p, s->t);
+    return vec2_dot(s->gap.normal, contact_gap_velocity(scene, candidate, &s->gap, &spot, v));
 }
 
 /* Whether the root function may be lower between two samples than at both: it falls at the first, or is higher there,
@@ -68,7 +79,7 @@ static double lowest(const contact_scene *scene, const contact_candidate *candid
                      const sample *s, const sample *next)
 {
     const double ratio = 0.6180339887498949;
-    double lo = s->spot.t, hi = next->spot.t, a = hi - ratio * (hi - lo), b = lo + ratio * (hi - lo);
+    double lo = s->t, hi = next->t, a = hi - ratio * (hi - lo), b = lo + ratio * (hi - lo);
     double ga = guard_at(scene, candidate, p, a), gb = guard_at(scene, candidate, p, b);
     for (int k = 0; k < 40 && ga > 0.0 && gb > 0.0; k++) {
         if (ga < gb || (ga == gb && s->guard < next->guard)) {
@@ -94,7 +105,7 @@ static double crossing(const contact_scene *scene, const contact_candidate *cand
                        const sample *clear, const sample *deep)
 {
     const double width = dense_output_resolution(p);
-    bracket b = {clear->spot.t, deep->spot.t, clear->guard, deep->guard, 0, 0};
+    bracket b = {clear->t, deep->t, clear->guard, deep->guard, 0, 0};
     while (b.after - b.before > width) {
         const double t = bracket_trial(&b, width), guard = guard_at(scene, candidate, p, t);
         bracket_close(&b, t, guard, guard <= 0.0);
@@ -178,11 +189,41 @@ static double crossing_within(const contact_scene *scene, const contact_candidat
     return INFINITY;
 }
 
+static bool covers_all(const obstacle_lone_segment *lone, const double *points, int n)
+{
+    bool all = true;
+    for (int k = 0; k < n; k++) all = all && obstacle_lone_covers(lone, vec2_at(points, k));
+    return all;
+}
+
+/* Whether a free node has not touched anything, as the hull of its way is above its lone segment, by more than
+ * the rounding errors of what would be found at any time. */
+static bool way_is_clear(const contact_scene *scene, contact_candidate *candidate, const dense_output *p)
+{
+    double hull[2 * DENSE_OUTPUT_HULL], low = INFINITY;
+    obstacle_lone_segment *lone = &candidate->lone;
+    if (!candidate_meets_all(candidate)) return false;
+    const int n = dense_output_hull(p, candidate->node, hull);
+    if (!covers_all(lone, hull, n)) {
+        *lone = surface_lone(scene, vec2_at(hull, 0));
+        if (!covers_all(lone, hull, n)) return false;
+    }
+    const segment *line = surface_lone_segment(scene, lone);
+    double size = fabs(line->start.x) + fabs(line->start.y);
+    for (int k = 0; k < n; k++) {
+        const double height = segment_height(line, vec2_at(hull, k));
+        low = height < low ? height : low;
+        size += fabs(hull[2 * k]) + fabs(hull[2 * k + 1]);
+    }
+    return low + scene->rule.penetration_tolerance > 64.0 * DBL_EPSILON * size;
+}
+
 /* `reach` bounds how far the candidate and the obstacles go towards each other: twice the way that its fastest node at
  * either end of the step makes, and the fastest obstacle. */
-double event_location_crossing(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
+double event_location_crossing(const contact_scene *scene, contact_candidate *candidate, const dense_output *p,
                                double from)
 {
+    if (way_is_clear(scene, candidate, p)) return INFINITY;
     const double h = p->end - from;
     const double reach =
         2.0 * h * (fmax(fastest(p, from, candidate), fastest(p, p->end, candidate)) + surface_speed(scene));

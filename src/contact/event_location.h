@@ -7,7 +7,7 @@
 
 /** First time in the step, after `from`, at which a free candidate is as deep as the penetration tolerance; infinity if
  *  never. The rest of the step is sampled eight times, and between samples every dip is searched for its minimum. */
-double event_location_crossing(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
+double event_location_crossing(const contact_scene *scene, contact_candidate *candidate, const dense_output *p,
                                double from);
 
 /** First time in the step, after `from`, at which a candidate's closed contacts have to change that have to at its end.

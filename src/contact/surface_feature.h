@@ -159,6 +159,24 @@ static inline obstacle_gap surface_gap(const contact_scene *scene, surface_query
     return obstacles_gap(&scene->model->obstacles, at.t, at.x, margin, without[0], without[1]);
 }
 
+/** The segment over whose line the smallest of them is the height of all points about x, free ends counting as longer
+ *  by scene_margin(). */
+static inline obstacle_lone_segment surface_lone(const contact_scene *scene, vec2 x)
+{
+    return obstacles_lone_segment(&scene->model->obstacles, x, scene_margin(scene));
+}
+
+/** The distance of a point that it covers, the same as by a search, and the segment itself. */
+static inline obstacle_gap surface_lone_gap(const contact_scene *scene, const obstacle_lone_segment *lone, vec2 x)
+{
+    return obstacle_lone_gap(&scene->model->obstacles, lone, x);
+}
+
+static inline const segment *surface_lone_segment(const contact_scene *scene, const obstacle_lone_segment *lone)
+{
+    return &scene->model->obstacles.segments[lone->segment];
+}
+
 /** The same to one obstacle, free ends counting as longer by scene_margin(). */
 static inline obstacle_gap surface_gap_of(const contact_scene *scene, surface_query at, dem_index obstacle)
 {

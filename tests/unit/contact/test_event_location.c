@@ -2,11 +2,14 @@
 /* event_location.c: the first change of a candidate's contacts within a step, at times worked out by hand. Times are
  * located to 100 units of rounding of t + h; each tolerance is twice that, or what rounding of 1e-16 m is at the speed
  * of crossing. */
+#include "harness/cleanup_gsl.h"
 #include "unit/contact/scene_fixture.h"
 
 #include "contact/node_motion.h"
 
 #include <float.h>
+
+#include <gsl/gsl_rng.h>
 
 #include "contact/event_location.h"
 
@@ -105,6 +108,49 @@ TEST(the_shortest_dip_is_found_and_a_near_miss_is_none)
         else
             assert_true(isinf(found) != 0);
     }
+}
+
+static const double far_points[4] = {90.0, -90.0, 91.0, -90.0};
+
+enum { ROUGH = 21 };
+
+/* Rough ground from -5 to 5 m and, far below, an obstacle that nothing reaches. */
+static void open_over_rough_ground(scene *s, const double *ground, dem_index n_obstacles, const double *state)
+{
+    const dem_obstacle obstacles[2] = {{.struct_size = sizeof(dem_obstacle), .n_points = ROUGH, .points = ground},
+                                       {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = far_points}};
+    scene_open(s, 1, state, masses, 0, NULL, obstacles, n_obstacles);
+    s->c.set.scene.rule.penetration_tolerance = penetration_tolerance;
+    s->y[2] = state[2];
+    s->y[3] = state[3];
+}
+
+/* Over a single obstacle a node is asked for a lone segment; with a second obstacle there is none, and all is searched.
+ * Ways of up to 3 m, over segments of 0.5 m. */
+TEST(what_a_node_meets_is_found_alike_by_a_lone_segment_and_by_a_search)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    int n_met = 0, n_passed = 0;
+    for (int turn = 0; turn < 400; turn++) {
+        double ground[2 * ROUGH], found[2];
+        const double state[4] = {2.0 * gsl_rng_uniform(rng) - 1.0, 0.3 + 0.5 * gsl_rng_uniform(rng),
+                                 6.0 * gsl_rng_uniform(rng) - 3.0, -4.0 * gsl_rng_uniform(rng)};
+        const vec2 acceleration = {0.0, 40.0 * gsl_rng_uniform(rng) - 10.0};
+        for (int k = 0; k < ROUGH; k++)
+            vec2_put(ground, k, (vec2){0.5 * (k - 10), 0.2 * gsl_rng_uniform(rng) * (turn % 4)});
+        for (int q = 0; q < 2; q++) {
+            CLEANUP(scene_close) scene s;
+            scene_flight f;
+            open_over_rough_ground(&s, ground, 1 + q, state);
+            scene_fly(&s, acceleration, 0.0, 0.05 + 0.45 * (turn % 3), &f);
+            f.dense.parabolic = turn % 2 == 1;
+            found[q] = crossing(&s, 0, &f.dense);
+        }
+        assert_true(found[0] == found[1]);
+        n_met += isfinite(found[0]) != 0;
+        n_passed += isinf(found[0]) != 0;
+    }
+    assert_true(n_met > 100 && n_passed > 100);
 }
 
 /* Level with 1 m/s through the tip of the roof, 1 cm below it, in the first eighth of the step. That nothing was within
