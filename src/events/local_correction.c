@@ -20,14 +20,22 @@
 
 enum { END = LOCAL_CORRECTION_STAGES }; /* the end of the step, behind the stages */
 
-/* Methods above order 2 have their changes integrated by Fehlberg's pair, the others by Heun's. `last` is the stage at
- * the end of the step: forces there are known from the accepted step. One ring more than the change reaches is
- * gathered, as the nodes there act on those that move. */
+/* Methods above order 2 have their changes integrated by Fehlberg's pair, the others by Heun's, whose own two stages
+ * are enough. Where springs are damped the third stage, which ARKODE needs, is kept for its ring: that far Verlet's
+ * forces at the end of the step become those at the velocities there. */
+static dem_status load_table(butcher_table *out, int order, bool damped)
+{
+    if (order > 2) return butcher_load(out, DEM_METHOD_FEHLBERG45);
+    return damped ? butcher_load(out, DEM_METHOD_HEUN12) : butcher_load_own(out, DEM_METHOD_HEUN12);
+}
+
+/* `last` is the stage at the end of the step: forces there are known from the accepted step. One ring more than the
+ * change reaches is gathered, as the nodes there act on those that move. */
 dem_status local_correction_create(local_correction *out, const state_layout *l, const local_forces *f,
                                    const constraints *c, const local_correction_rule *rule)
 {
     local_correction p = {.rule = *rule};
-    TRY(butcher_load(&p.table, rule->order > 2 ? DEM_METHOD_FEHLBERG45 : DEM_METHOD_HEUN12));
+    TRY(load_table(&p.table, rule->order, f->couple_velocities));
     while (p.table.c[p.last] != 1.0) p.last++;
     TRY(neighbourhood_create(&p.near, l, f, c, 1 + (f->couple_velocities ? p.table.stages : p.table.stages / 2)));
     *out = p;

@@ -3,8 +3,8 @@
  *   d'' = a(x + d, constraints after) - a(x, constraints before)
  * and spreads by a ring of neighbours for every two stages of a Runge-Kutta step (for every one where springs are
  * damped). So it is integrated on a neighbourhood of 3 (6) rings round the event, by one step of Fehlberg's pair;
- * outside it is 0 to the bit. For methods of order 2 Heun's pair and 1 (2) rings suffice. Where an event changes forces
- * alone it is one ring less. Inside the step the change is interpolated as the step is: by quintics, or by
+ * outside it is 0 to the bit. For methods of order 2 Heun's pair and 1 (3) rings suffice. Where an event changes
+ * forces alone it is one ring less. Inside the step the change is interpolated as the step is: by quintics, or by
  * parabolas. */
 #ifndef DEM_EVENTS_LOCAL_CORRECTION_H
 #define DEM_EVENTS_LOCAL_CORRECTION_H

@@ -113,9 +113,7 @@ static const butcher_row *row_of(dem_method method)
     return (int)method >= 0 && (int)method < n_rows ? &rows[method] : NULL;
 }
 
-/* The table as ARKODE is to have it. A last stage at c = 1 that is not the solution gets the solution as a stage behind
- * it, see append_solution(). */
-dem_status butcher_load(butcher_table *out, dem_method method)
+dem_status butcher_load_own(butcher_table *out, dem_method method)
 {
     const butcher_row *row = row_of(method);
     CHECK(row != NULL, DEM_ERROR_ARGUMENT, "unknown method %d", (int)method);
@@ -124,6 +122,13 @@ dem_status butcher_load(butcher_table *out, dem_method method)
         *out = rk4;
     else
         TRY(read_table(out, row));
+    return DEM_OK;
+}
+
+/* A last stage at c = 1 that is not the solution gets the solution as a stage behind it, see append_solution(). */
+dem_status butcher_load(butcher_table *out, dem_method method)
+{
+    TRY(butcher_load_own(out, method));
     if (out->c[out->stages - 1] == 1.0 && !ends_with_solution(out)) append_solution(out);
     return DEM_OK;
 }

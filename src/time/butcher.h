@@ -24,6 +24,9 @@ typedef struct butcher_table {
  *  table */
 dem_status butcher_load(butcher_table *out, dem_method method);
 
+/** The coefficients without a stage that only ARKODE needs. */
+dem_status butcher_load_own(butcher_table *out, dem_method method);
+
 /** Whether the last stage is the end of the step, so that the next step has its derivative. */
 bool butcher_ends_in_stage(const butcher_table *t);
 

@@ -64,6 +64,20 @@ TEST(a_last_stage_at_the_end_of_the_step_is_the_solution)
     }
 }
 
+/* Heun's method has two stages: v' = v + h (a_0 + a_1)/2 from a_1 at the end of Euler's step. */
+TEST(a_table_of_its_own_has_no_stage_for_arkode)
+{
+    butcher_table own, longer;
+    assert_ok(butcher_load_own(&own, DEM_METHOD_HEUN12));
+    assert_ok(butcher_load(&longer, DEM_METHOD_HEUN12));
+    assert_int_equal(own.stages, 2);
+    assert_int_equal(longer.stages, 3);
+    assert_close(own.a[2], 1.0, 0.0);
+    assert_close(own.b[0], 0.5, 0.0);
+    assert_close(own.b[1], 0.5, 0.0);
+    assert_int_equal(butcher_load_own(&own, DEM_METHOD_VERLET), DEM_ERROR_ARGUMENT);
+}
+
 /* R(z) of s = p stages is the exponential series: |R|^2 = 1 - z^4/12 + z^6/36 for p = 3, 1 - z^6/72 + z^8/576 for 4. */
 TEST(growth_is_that_of_the_stability_polynomials)
 {
