@@ -261,9 +261,9 @@ static void list_corners(local_elements *e, const local_nodes *nodes)
 
 /* ---- forces ---- */
 
-/* Forces (1) of bonds k and `other`, which may be the same, on both of their ends. The pull is the tension over the
- * length: times the vector between the ends it is the force on the first one. */
-INLINE void pull_two(local_elements *e, dem_index k, dem_index other, const double *x)
+/* Forces (1) of bonds k and `other`, which may be the same, on the first of their ends. The pull is the tension over
+ * the length: times the vector between the ends it is the force on the first one. */
+INLINE void forces_of_two(const local_elements *e, dem_index k, dem_index other, const double *x, row_pair force[2])
 {
     const local_bond *bond[2] = {&e->lists.bonds[k], &e->lists.bonds[other]};
     const row_pair one = row_pair_at(x + bond[0]->second, 0) - row_pair_at(x + bond[0]->first, 0);
@@ -275,11 +275,19 @@ INLINE void pull_two(local_elements *e, dem_index k, dem_index other, const doub
     const row_pair_bits tension = length > rest;
     const row_pair stiffness = (row_pair)(((row_pair_bits)pulled & tension) | ((row_pair_bits)pushed & ~tension));
     const row_pair factor = springs_pull_two(stiffness, rest, length);
-    const row_pair force = factor[0] * one, next = factor[1] * two;
-    row_pair_put(e->both + 4 * k, 0, force);
-    row_pair_put(e->both + 4 * k + 2, 0, -force);
-    row_pair_put(e->both + 4 * other, 0, next);
-    row_pair_put(e->both + 4 * other + 2, 0, -next);
+    force[0] = factor[0] * one;
+    force[1] = factor[1] * two;
+}
+
+/* On both of their ends. */
+INLINE void pull_two(local_elements *e, dem_index k, dem_index other, const double *x)
+{
+    row_pair force[2];
+    forces_of_two(e, k, other, x, force);
+    row_pair_put(e->both + 4 * k, 0, force[0]);
+    row_pair_put(e->both + 4 * k + 2, 0, -force[0]);
+    row_pair_put(e->both + 4 * other, 0, force[1]);
+    row_pair_put(e->both + 4 * other + 2, 0, -force[1]);
 }
 
 /* Of the first n bonds. */
@@ -289,15 +297,24 @@ static void pull(local_elements *e, dem_index n, const double *x)
     if (n % 2 == 1) pull_two(e, n - 1, n - 1, x);
 }
 
-/* In the order of bonds. f has room for one ring more, in which the other ends collect sums that are not whole. */
-static void add_up_bonds(const local_elements *e, dem_index n, dem_index n_nodes, double *f)
+/* Adds the force of a bond to its ends. */
+INLINE void add_bond_force(const local_bond *bond, row_pair force, double *f)
 {
+    row_pair_put(f + bond->first, 0, row_pair_at(f + bond->first, 0) + force);
+    row_pair_put(f + bond->second, 0, row_pair_at(f + bond->second, 0) - force);
+}
+
+/* Forces of the first n bonds, added up in their order. f has room for one ring more, in which the other ends collect
+ * sums that are not whole. */
+static void add_up_bonds(const local_elements *e, dem_index n, dem_index n_nodes, const double *x, double *f)
+{
+    row_pair force[2];
     memset(f, 0, 2 * (size_t)n_nodes * sizeof *f);
-    for (dem_index k = 0; k < n; k++) {
-        double *first = f + e->lists.bonds[k].first, *second = f + e->lists.bonds[k].second;
-        const row_pair force = row_pair_at(e->both + 4 * k, 0);
-        row_pair_put(first, 0, row_pair_at(first, 0) + force);
-        row_pair_put(second, 0, row_pair_at(second, 0) - force);
+    for (dem_index k = 0; k < n; k += 2) {
+        const dem_index next = k + 1 < n ? k + 1 : k;
+        forces_of_two(e, k, next, x, force);
+        add_bond_force(&e->lists.bonds[k], force[0], f);
+        if (next > k) add_bond_force(&e->lists.bonds[next], force[1], f);
     }
 }
 
@@ -444,8 +461,7 @@ void local_elements_push_moved(local_elements *e, const local_nodes *nodes, dem_
 {
     const dem_index n = nodes->end[ring], n_pulling = n_moved < n ? n_moved : n;
     if (!e->lists.by_node) {
-        pull(e, e->lists.places[n].bonds, x);
-        add_up_bonds(e, e->lists.places[n].bonds, nodes->end[ring + 1], f);
+        add_up_bonds(e, e->lists.places[n].bonds, nodes->end[ring + 1], x, f);
         return;
     }
     pull(e, e->lists.places[n_pulling].bonds, x);
