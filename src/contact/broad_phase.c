@@ -28,7 +28,8 @@ double broad_phase_speed(const contact_set *c, const double *v)
     double square = 0.0;
     for (dem_index k = 0; k < c->surface->n_nodes; k++) {
         const vec2 vi = vec2_at(v, c->list[k].node);
-        square = fmax(square, vec2_dot(vi, vi));
+        const double own = vec2_dot(vi, vi);
+        square = own > square ? own : square; /* fmax() is a call */
     }
     return sqrt(square) + surface_speed(&c->scene);
 }
@@ -78,8 +79,8 @@ static inline void list_one(broad_phase *w, const contact_candidate *candidate, 
 {
     if (candidate->n_closed > 0 || !candidate->clearance.inactive)
         w->active[w->n++] = k;
-    else
-        w->earliest = fmin(w->earliest, candidate->clearance.active_from);
+    else if (candidate->clearance.active_from < w->earliest)
+        w->earliest = candidate->clearance.active_from;
 }
 
 void broad_phase_list(broad_phase *w, const contact_set *c)
