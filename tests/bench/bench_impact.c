@@ -4,7 +4,8 @@
  *      bench_impact SPACING TIME TURNS METHOD CONTACT RTOL STEP TOLERANCE [FILE [ETA FRICTION DAMPING [GUARD]]]
  *      bench_impact SPACING lammps FILE
  *
- * As many runs as TURNS; if that is 0, for half a second. STEP is the longest step, of Verlet's method the step,
+ * As many runs as TURNS; if that is 0, for half a second, and in turns with the clocks inside of the step, which take
+ * time themselves, and without. STEP is the longest step, of Verlet's method the step,
  * times omega_max; TOLERANCE is the penetration tolerance in spacings, DAMPING the damping time in s, GUARD the
  * strength of the folding guard over E h. The state at the end goes into FILE. Elastic, without friction, undamped and
  * without a guard unless the last four say else. Prints: nodes, springs, evaluations, steps, events, impacts, late
@@ -69,24 +70,30 @@ typedef struct times {
 } times;
 
 static times spent;
+static bool looks_inside; /* whether the clocks inside are read */
 
 void __real_event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
 dem_status __real_event_queue_show(event_queue *q, double t);
 void __wrap_event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
 dem_status __wrap_event_queue_show(event_queue *q, double t);
 
+static double inner_clock(void)
+{
+    return looks_inside ? seconds(CLOCK_PROCESS_CPUTIME_ID) : 0.0;
+}
+
 void __wrap_event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state)
 {
-    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    const double start = inner_clock();
     __real_event_queue_start(q, step, y1, f1, state);
-    spent.find += seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
+    spent.find += inner_clock() - start;
 }
 
 dem_status __wrap_event_queue_show(event_queue *q, double t)
 {
-    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    const double start = inner_clock();
     const dem_status status = __real_event_queue_show(q, t);
-    spent.take += seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
+    spent.take += inner_clock() - start;
     return status;
 }
 
@@ -129,13 +136,15 @@ int main(int argc, char **argv)
     const dem_options options = read_options(argv + 4, model);
     const int turns = atoi(argv[3]);
     dem_simulation *simulation = NULL;
-    times least = {.all = INFINITY};
+    times least = {INFINITY, INFINITY, INFINITY};
     double sum = 0.0;
     for (int turn = 0; turns > 0 ? turn < turns : sum < least_time; turn++) {
         dem_simulation_destroy(simulation);
+        looks_inside = turns > 0 || turn % 2 == 0;
         const times now = take(&simulation, model, &options, t_end);
         sum += now.all;
-        if (now.all < least.all) least = now;
+        if (turns > 0 || !looks_inside) least.all = fmin(least.all, now.all);
+        if (looks_inside) least.find = fmin(least.find, now.find), least.take = fmin(least.take, now.take);
     }
     print(simulation, least);
     if (argc > 9) plate_write_state(simulation, argv[9]);
