@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Finds bodies that run into each other or into themselves, which no force prevents: boundary nodes inside triangles of
  * which they are no corners. Boundary nodes are put into the cells of a grid, and each triangle looks at the nodes in
- * the cells that it reaches into. The result is only reported; contact between bodies is not computed. */
+ * the cells that it reaches into; most of them are no larger than these, and so far from the boundary that this is seen
+ * from one corner. The result is only reported; contact between bodies is not computed. */
 #include "model/overlap.h"
 
 #include <math.h>
@@ -48,6 +49,8 @@ static dem_status create(overlap *o, const mesh_boundary *boundary)
     TRY(overlap_reserve(o, boundary));
     o->first = malloc((size_t)o->n_cells * sizeof *o->first);
     CHECK_MEMORY(o->first);
+    o->place = malloc((size_t)boundary->lattice->n_nodes * sizeof *o->place);
+    CHECK_MEMORY(o->place);
     list_nodes(o, boundary);
     return DEM_OK;
 }
@@ -68,6 +71,7 @@ void overlap_destroy(overlap *o)
     free(o->nodes);
     free(o->first);
     free(o->next);
+    free(o->place);
     *o = (overlap){.found = o->found};
 }
 
@@ -91,6 +95,15 @@ static dem_index row_of(const overlap *o, double y)
     return cell_of(y, o->low, o->cells_per_length, o->rows);
 }
 
+/* The row and the column of a cell share a word, in which no difference of columns reaches into the rows. NEAR: there
+ * may be boundary nodes around. */
+enum { ROW = 16, MOST_CELLS = 0x7fff };
+static const uint32_t CELL = 0x7fffffff, NEAR = 0x80000000;
+
+/* What the list of a cell without nodes is: whether there are none either in the cells up to two further, or one back,
+ * in any direction of both. */
+enum { EMPTY_AROUND = -1, EMPTY = -2 };
+
 /* Cells over all boundary nodes, about square. The list of a cell has its nodes in ascending order, since they are
  * entered backwards. */
 static void fill_cells(overlap *o, const double *x)
@@ -109,16 +122,46 @@ static void fill_cells(overlap *o, const double *x)
     o->columns = o->rows = 1;
     o->cells_per_length = 0.0;
     if (width > 0.0 && height > 0.0 && n > 4.0) {
-        o->columns = (dem_index)fmin(fmax(floor(sqrt(n * width / height)), 1.0), n);
-        o->rows = o->n_cells / o->columns;
+        o->columns = (dem_index)fmin(fmax(floor(sqrt(n * width / height)), 1.0), fmin(n, MOST_CELLS));
+        o->rows = o->n_cells / o->columns < MOST_CELLS ? o->n_cells / o->columns : MOST_CELLS;
         o->cells_per_length = fmin((double)o->columns / width, (double)o->rows / height);
     }
-    for (dem_index c = 0; c < o->n_cells; c++) o->first[c] = -1;
+    for (dem_index c = 0; c < o->n_cells; c++) o->first[c] = EMPTY_AROUND;
     for (dem_index p = o->n - 1; p >= 0; p--) {
         const vec2 at = vec2_at(x, o->nodes[p]);
         int32_t *first = &o->first[row_of(o, at.y) * o->columns + column_of(o, at.x)];
         o->next[p] = *first;
         *first = (int32_t)p;
+    }
+}
+
+static dem_index larger(dem_index a, dem_index b)
+{
+    return a > b ? a : b;
+}
+
+static dem_index smaller(dem_index a, dem_index b)
+{
+    return a < b ? a : b;
+}
+
+/* The cells from which that of a boundary node is at most two further, or one back. */
+static void mark_around(overlap *o, dem_index node, const double *x)
+{
+    const dem_index row = row_of(o, x[2 * node + 1]), column = column_of(o, x[2 * node]);
+    for (dem_index r = larger(row - 2, 0); r <= smaller(row + 1, o->rows - 1); r++)
+        for (dem_index c = larger(column - 2, 0); c <= smaller(column + 1, o->columns - 1); c++)
+            if (o->first[r * o->columns + c] == EMPTY_AROUND) o->first[r * o->columns + c] = EMPTY;
+}
+
+/* Once for all triangles at a node. */
+static void find_places(overlap *o, dem_index n_nodes, const double *x)
+{
+    for (dem_index p = 0; p < o->n; p++) mark_around(o, o->nodes[p], x);
+    for (dem_index i = 0; i < n_nodes; i++) {
+        const dem_index row = row_of(o, x[2 * i + 1]), column = column_of(o, x[2 * i]);
+        const bool near = o->first[row * o->columns + column] != EMPTY_AROUND;
+        o->place[i] = (uint32_t)(row << ROW | column) | (near ? NEAR : 0);
     }
 }
 
@@ -154,6 +197,15 @@ static double least_of(double a, double b, double c)
 static double most_of(double a, double b, double c)
 {
     return -least_of(-a, -b, -c);
+}
+
+/* Whether no boundary node can be in a triangle: there are none around one of its corners, from which the two others
+ * are at most two cells further, or one back. */
+static bool is_far(const overlap *o, const dem_index *corner)
+{
+    const uint32_t one_back = 1u << ROW | 1u, further = 3u << ROW | 3u, a = o->place[corner[0]];
+    const uint32_t b = (o->place[corner[1]] & CELL) + one_back - a, c = (o->place[corner[2]] & CELL) + one_back - a;
+    return (a & NEAR) == 0 && ((b | c) & ~further) == 0;
 }
 
 /* All cells that the triangle's bounding box reaches into. */
@@ -195,7 +247,9 @@ void overlap_look(overlap *o, const dem_lattice *lattice, double t, const double
     if (o->boundary != NULL) renew(o);
     if (o->n == 0) return;
     fill_cells(o, x);
+    find_places(o, lattice->n_nodes, x);
     for (dem_index k = 0; k < lattice->n_triangles; k++)
-        if (o->broken == NULL || !o->broken[k]) look_in(o, lattice, k, t, x);
+        if (!is_far(o, &lattice->triangles[3 * k]) && (o->broken == NULL || !o->broken[k]))
+            look_in(o, lattice, k, t, x);
     if (o->found.now > o->found.most) o->found.most = o->found.now;
 }

@@ -12,8 +12,9 @@ typedef struct overlap {
     const mesh_boundary *boundary; /* of which they are listed at the next look; NULL: they are */
     const unsigned char *broken;   /* [n_triangles] 1: broken; NULL: all are whole */
     dem_index n_cells, columns, rows;
-    int32_t *first, *next; /* [n_cells], [n] nodes in the cells of a grid over them all, as lists; -1: none */
+    int32_t *first, *next; /* [n_cells], [n] nodes in the cells of a grid over them all, as lists; < 0: none */
     double left, low, cells_per_length; /* m, where the grid begins; 1/m */
+    uint32_t *place;                    /* [n_nodes] row and column of each node of the lattice: scratch of a look */
     dem_overlap found;
 } overlap;
 

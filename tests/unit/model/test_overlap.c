@@ -11,12 +11,12 @@
 #include "verification/support.h"
 
 /* Two discs of unit spacing, beside each other. */
-static void make_discs(dem_lattice *l)
+static void make_discs(dem_lattice *l, double radius)
 {
     CLEANUP(dem_lattice_free) dem_lattice other = dem_lattice_empty();
-    assert_ok(dem_lattice_disc(l, 3.0, 1.0));
-    assert_ok(dem_lattice_disc(&other, 3.0, 1.0));
-    dem_lattice_move(&other, 0.0, (const double[2]){7.0, 0.0});
+    assert_ok(dem_lattice_disc(l, radius, 1.0));
+    assert_ok(dem_lattice_disc(&other, radius, 1.0));
+    dem_lattice_move(&other, 0.0, (const double[2]){2.0 * radius + 1.0, 0.0});
     assert_ok(dem_lattice_append(l, &other));
 }
 
@@ -35,20 +35,24 @@ static dem_index count_pairs(const dem_lattice *l, const unsigned char *flags, c
     return n;
 }
 
-/* Looks at 40 random places of the discs, one of them anywhere near the other.
+/* Looks at 100 random places of the discs, one of them moved by up to `reach` towards the other or off it, every other
+ * time with some nodes so far off that their triangles are larger than the cells.
  * \param whole  the triangles that count, with their flags */
-static void check_counts(overlap *o, const dem_lattice *l, const dem_lattice *whole)
+static void check_counts(overlap *o, const dem_lattice *l, const dem_lattice *whole, double reach)
 {
     CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     assert_non_null(rng);
     CLEANUP(free_memory) double *x = malloc(2 * (size_t)l->n_nodes * sizeof *x);
     assert_non_null(x);
     dem_index most = 0;
-    for (int k = 0; k < 40; k++) {
-        const double shift[2] = {8.0 * gsl_rng_uniform(rng) - 4.0, 4.0 * gsl_rng_uniform(rng) - 2.0};
-        for (dem_index i = 0; i < l->n_nodes; i++)
+    for (int k = 0; k < 100; k++) {
+        const double shift[2] = {reach * (2.0 * gsl_rng_uniform(rng) - 1.0), reach * (gsl_rng_uniform(rng) - 0.5)};
+        for (dem_index i = 0; i < l->n_nodes; i++) {
+            const double off = k % 2 == 1 && gsl_rng_uniform(rng) < 0.3 ? 8.0 : 0.4;
             for (int c = 0; c < 2; c++)
-                x[2 * i + c] = l->x[2 * i + c] + (i < l->n_nodes / 2 ? shift[c] : 0.0) + 0.4 * gsl_rng_uniform(rng);
+                x[2 * i + c] =
+                    l->x[2 * i + c] + (i < l->n_nodes / 2 ? shift[c] : 0.0) + off * (gsl_rng_uniform(rng) - 0.5);
+        }
         const dem_index n = count_pairs(whole, whole->flags, x);
         overlap_look(o, l, (double)k, x);
         assert_int_equal(o->found.now, n);
@@ -62,10 +66,21 @@ TEST(every_pair_is_counted)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
     CLEANUP(overlap_destroy) overlap o;
-    make_discs(&l);
+    make_discs(&l, 3.0);
     assert_ok(dem_lattice_exclude(&l, NULL, 0)); /* fills the flags */
     assert_ok(overlap_create(&o, &l));
-    check_counts(&o, &l, &l);
+    check_counts(&o, &l, &l, 4.0);
+}
+
+/* Most triangles are far from all boundary nodes, until the other disc comes. */
+TEST(every_pair_is_counted_far_inside_of_bodies)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
+    CLEANUP(overlap_destroy) overlap o;
+    make_discs(&l, 9.0);
+    assert_ok(dem_lattice_exclude(&l, NULL, 0));
+    assert_ok(overlap_create(&o, &l));
+    check_counts(&o, &l, &l, 16.0);
 }
 
 /* A third of the triangles: nothing is inside them, and the boundary runs round what is left. */
@@ -74,7 +89,7 @@ TEST(broken_triangles_do_not_count)
     CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
     CLEANUP(overlap_destroy) overlap o;
     CLEANUP(mesh_boundary_free) mesh_boundary boundary;
-    make_discs(&l);
+    make_discs(&l, 3.0);
     assert_ok(dem_lattice_exclude(&l, NULL, 0));
     assert_ok(overlap_create(&o, &l));
     CLEANUP(free_memory) unsigned char *broken = calloc((size_t)l.n_triangles, 1);
@@ -91,14 +106,14 @@ TEST(broken_triangles_do_not_count)
     assert_ok(overlap_reserve(&o, &boundary));
     overlap_break(&o, &boundary, broken);
     assert_ok(mesh_edges_contact_flags(l.flags, &whole));
-    check_counts(&o, &l, &whole);
+    check_counts(&o, &l, &whole, 4.0);
 }
 
 TEST(the_first_is_kept)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
     CLEANUP(overlap_destroy) overlap o;
-    make_discs(&l);
+    make_discs(&l, 3.0);
     assert_ok(overlap_create(&o, &l));
     overlap_look(&o, &l, 1.0, l.x);
     assert_int_equal(o.found.now, 0);
