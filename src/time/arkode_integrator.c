@@ -195,6 +195,7 @@ static dem_status allocate(arkode_integrator *I)
     }
     CHECK(complete, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
           (long long)I->problem.layout.n_nodes);
+    nvector_space_start(I->space, I->y0);
     return DEM_OK;
 }
 

@@ -84,6 +84,29 @@ void error_weights_square(const error_weights *w, array_ops_sum *sum, const doub
     }
 }
 
+/* The sum of |x| of n numbers. */
+static double sum_magnitudes(const array_ops *ops, const double *x, dem_index n)
+{
+    const dem_index whole = n - n % ARRAY_OPS_LANES;
+    double sum[2];
+    ops->magnitude(sum, x, (int)whole);
+    for (dem_index k = whole; k < n; k++) sum[0] += fabs(x[k]);
+    return sum[0] + sum[1];
+}
+
+/* A run in pieces, as `magnitude` counts in `int`. */
+double error_weights_bound(const error_weights *w, const double *x, dem_index first, dem_index n)
+{
+    const double rounding = 1.0 + 1e-9;
+    double bound = 0.0;
+    for (dem_index k = 0, here; k < n; k += here) {
+        const weight_run *run = run_of(w, first + k);
+        here = lesser(lesser(run->end - first - k, n - k), PIECE);
+        bound += rounding * run->weights[0] * sum_magnitudes(w->ops, x + k, here);
+    }
+    return bound;
+}
+
 /* ---- making and freeing ---- */
 
 /* Takes the last run on to `end`, or begins another one behind it. */

@@ -16,6 +16,10 @@ void error_weights_free(error_weights *w);
 /** The weight of number k of a state. */
 double error_weights_at(const error_weights *w, dem_index k);
 
+/** A bound of the sum of |number times weight| of n numbers, which are those from `first` on; NAN or infinite if one of
+ *  them is. */
+double error_weights_bound(const error_weights *w, const double *x, dem_index first, dem_index n);
+
 /** Adds the squares of scale times number times weight of n numbers, which are those from `first` on, to a sum. */
 void error_weights_square(const error_weights *w, array_ops_sum *sum, const double *x, double scale, dem_index first,
                           dem_index n);

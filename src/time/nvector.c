@@ -8,6 +8,7 @@
  * deferred operation needs, too. The loops with vector instructions are in src/base/array_ops.h. */
 #include "time/nvector.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -37,6 +38,7 @@ struct nvector_space {
     array_ops_sum *sums; /* [n_shares] */
     buffer *buffers;     /* the first free one */
     content *contents;
+    N_Vector start;                   /* of a step; NULL: it is not known */
     const nvector_deferral *deferral; /* NULL: nothing is deferred */
 };
 
@@ -88,6 +90,19 @@ static buffer *take(nvector_space *s)
     s->buffers = b->next;
     b->users = 1;
     return b;
+}
+
+/* ---- where a step starts ---- */
+
+void nvector_space_start(nvector_space *s, N_Vector start)
+{
+    s->start = start;
+}
+
+static bool is_start(const nvector_space *s, N_Vector x)
+{
+    return s->start != NULL && content_of(x)->use != NVECTOR_DUE &&
+           content_of(x)->buffer == content_of(s->start)->buffer;
 }
 
 /* ---- what is deferred ---- */
@@ -304,6 +319,35 @@ bool nvector_norm_of_sum(const nvector_space *s, const array_ops_sum *sum, doubl
     return holds;
 }
 
+/* A share of a bound of the norm. */
+static void bound_share(const void *context, int share, int thread)
+{
+    const squares *p = context;
+    const nvector_space *s = p->space;
+    const dem_index first = team_share(s->shape.length, s->n_shares, share);
+    const dem_index n = team_share(s->shape.length, s->n_shares, share + 1) - first;
+    (void)thread;
+    s->sums[share].largest = error_weights_bound(s->shape.weights, p->x + first, first, n);
+}
+
+/* A norm is no larger than the sum of |x_k w_k| over sqrt(n). */
+static double bound_of(const nvector_space *s, const double *x)
+{
+    double sum = 0.0;
+    team_run(s->shape.team, s->n_shares, bound_share, &(squares){.space = s, .x = x});
+    for (int share = 0; share < s->n_shares; share++) sum += s->sums[share].largest;
+    return sum / sqrt((double)s->shape.n_whole);
+}
+
+/* Whether a bound of the norm of the state from which a step goes is enough: ARKODE refuses tolerances where
+ * DBL_EPSILON times it is more than 1. */
+static bool bound_start(const nvector_space *s, N_Vector x, double *bound)
+{
+    if (s->shape.ranks->size > 1 || !is_start(s, x)) return false;
+    *bound = bound_of(s, nvector_values(x));
+    return *bound < 0.5 / DBL_EPSILON;
+}
+
 /* sqrt(sum of (x_k w_k)^2/n), infinity if a term is not finite. The scale is guessed from a sample of terms, and taken
  * again from the largest square of the sum until both agree. The result is that of the scale of the largest term,
  * whatever the sample was. ARKODE's vector of weights has no numbers: those of the space are meant. */
@@ -313,6 +357,7 @@ static sunrealtype norm(N_Vector x, N_Vector w)
     double largest = 0.0, result;
     (void)w;
     if (s->deferral != NULL && s->deferral->take_norm(s->deferral->self, x, &result)) return result;
+    if (bound_start(s, x, &result)) return result;
     const double *values = nvector_values(x);
     for (dem_index k = 0; k < s->shape.length; k += s->shape.length / n_sampled + 1)
         largest = fmax(largest, fabs(values[k] * error_weights_at(s->shape.weights, k)));

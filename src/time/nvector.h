@@ -51,6 +51,11 @@ void nvector_space_free(nvector_space *s);
 /** A vector of the space with undefined numbers; NULL without memory. For N_VDestroy(). */
 N_Vector nvector_create(nvector_space *s, SUNContext context);
 
+/** From now on the norm of a vector that shares its numbers with `start` may be a bound of it: it is the state from
+ *  which a step goes, of which ARKODE asks whether rounding alone is more than the error that is allowed. Where vectors
+ *  have parts on other ranks it is the norm. Borrows the vector, until the last one is gone. */
+void nvector_space_start(nvector_space *s, N_Vector start);
+
 /** From now on operations may be deferred. Borrows the table, until the last vector is gone. */
 void nvector_space_defer(nvector_space *s, const nvector_deferral *d);
 void nvector_set_use(N_Vector v, nvector_use use);

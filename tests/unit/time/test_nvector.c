@@ -155,6 +155,30 @@ TEST(norms_of_all_sizes_are_right)
         }
 }
 
+/* Of the state from which a step goes a bound is enough, which is no more than sqrt(n) times the norm: both are by the
+ * weights. Where it is too large to tell whether rounding counts, and of other vectors, it is the norm. */
+TEST(the_norm_of_a_start_may_be_a_bound)
+{
+    for (int n_threads = 1; n_threads <= 3; n_threads++) {
+        bench b = make_bench(n_threads);
+        double *const start = nvector_fresh(b.v[0]), *const other = nvector_fresh(b.v[2]);
+        for (double size = 1e-3; size < 1e19; size *= 1e4) {
+            for (dem_index k = 0; k < n; k++) start[k] = other[k] = size * number(0, k);
+            nvector_space_start(b.space, NULL);
+            const double norm = N_VWrmsNorm(b.v[0], b.v[1]);
+            nvector_space_start(b.space, b.v[0]);
+            N_VScale(1.0, b.v[0], b.v[1]);
+            const double bound = N_VWrmsNorm(b.v[1], b.v[0]);
+            assert_true(bound >= norm && bound <= sqrt((double)n) * norm);
+            assert_int_equal(bound != norm, size < 1e15);
+            assert_close(N_VWrmsNorm(b.v[2], b.v[0]), norm, 0.0);
+        }
+        start[7] = (double)NAN;
+        assert_true(isinf(N_VWrmsNorm(b.v[0], b.v[1])));
+        free_bench(&b);
+    }
+}
+
 TEST(the_norm_of_what_is_no_number_is_infinite)
 {
     CLEANUP(free_bench) bench b = make_bench(2);
