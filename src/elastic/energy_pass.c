@@ -91,6 +91,14 @@ INLINE void measure_couplings(const place *p, running *r)
     }
 }
 
+/* Whether some of these areas may be folded, or the smallest so far in their lanes, over those at rest: without a
+ * quotient, which rounds by less than the margin. */
+INLINE bool may_be_small(const running *r, lanes area, lanes rest, unsigned taken)
+{
+    const lanes least = lanes_max(r->area_min, lanes_all(TRIANGLES_GUARD_ONSET));
+    return (lanes_below(area, lanes_mul(lanes_mul(least, lanes_all(1.0 + 1e-12)), rest)) & taken) != 0;
+}
+
 /* A0 kappa/2 (J - 1)^2 with J = A/A0 */
 INLINE void measure_areas(place *p, running *r)
 {
@@ -105,6 +113,7 @@ INLINE void measure_areas(place *p, running *r)
         const pairs next = positions(p, e->at, gathered), last = positions(p, e->to, gathered);
         const lanes area = lanes_mul(lanes_all(0.5), pairs_cross(pairs_sub(next, x), pairs_sub(last, x)));
         const lanes rest = lanes_load(sets + e->set);
+        if (!p->l->stiff && !may_be_small(r, area, rest, taken)) continue;
         lanes J = lanes_div(area, rest);
         if (taken != ALL_LANES) J = lanes_where(taken, J, lanes_all((double)INFINITY));
         r->area_min = lanes_min(J, r->area_min);
