@@ -3,10 +3,13 @@
  * set, whose vectors LANES names; with the plain loops the compiler fills vectors by itself. */
 #include LANES
 
+#include <string.h>
+
 #include "base/inline.h"
 #include "elastic/lane_operands.h"
 #include "model/stress_pass.h"
 
+typedef double two __attribute__((vector_size(16)));
 typedef double four __attribute__((vector_size(32)));
 
 enum { BATCH = 256 };
@@ -16,27 +19,32 @@ static void fill_ways(const stress_pass *p, dem_index first, int n, double *dx, 
 {
     const dem_index *ends = p->lattice->ends + 2 * first;
     for (int q = 0; q < n; q++) {
-        const double *from = p->x + 2 * ends[2 * q], *to = p->x + 2 * ends[2 * q + 1];
-        dx[q] = to[0] - from[0];
-        dy[q] = to[1] - from[1];
+        two from, to;
+        memcpy(&from, p->x + 2 * ends[2 * q], sizeof from);
+        memcpy(&to, p->x + 2 * ends[2 * q + 1], sizeof to);
+        const two way = to - from;
+        dx[q] = way[0];
+        dy[q] = way[1];
     }
 }
 
-/* With the tension over the length, N/m, as in springs_virial(). */
+/* With the tension over the length, N/m, as in springs_virial(). Each of the four numbers is stored by itself first, as
+ * vectors are, and then put together with the others of its spring. */
 static void fill_virials(const stress_pass *p, dem_index first, int n)
 {
-    double dx[BATCH], dy[BATCH];
+    double dx[BATCH], dy[BATCH], xy[BATCH], strain[BATCH];
     const double *stiffness = p->lattice->stiffness + first, *rest_length = p->lattice->rest_length + first;
-    double *out = p->virial + 4 * first;
+    four *out = (four *)(p->virial + 4 * first);
     fill_ways(p, first, n, dx, dy);
     for (int q = 0; q < n; q++) {
-        const double length = sqrt(dx[q] * dx[q] + dy[q] * dy[q]), rest = rest_length[q];
+        const double x = dx[q], y = dy[q], length = sqrt(x * x + y * y), rest = rest_length[q];
         const double tension = springs_pull(stiffness[q], rest, length);
-        out[4 * q] = tension * dx[q] * dx[q];
-        out[4 * q + 1] = tension * dy[q] * dy[q];
-        out[4 * q + 2] = tension * dx[q] * dy[q];
-        out[4 * q + 3] = springs_strain_at(rest, length);
+        dx[q] = tension * x * x;
+        dy[q] = tension * y * y;
+        xy[q] = tension * x * y;
+        strain[q] = springs_strain_at(rest, length);
     }
+    for (int q = 0; q < n; q++) out[q] = (four){dx[q], dy[q], xy[q], strain[q]};
 }
 
 void STRESS_PASS_SPRINGS(const stress_pass *p, dem_index first, dem_index last)
