@@ -66,6 +66,13 @@ static int by_ends(const void *a, const void *b)
     return (p->ends[1] > q->ends[1]) - (p->ends[1] < q->ends[1]);
 }
 
+/* Side k of all triangles. */
+static side side_of(const dem_lattice *lattice, size_t k)
+{
+    const dem_index a = lattice->triangles[k], b = lattice->triangles[k % 3 == 2 ? k - 2 : k + 1];
+    return a < b ? (side){{a, b}} : (side){{b, a}};
+}
+
 static const double *start_of(const dem_lattice *lattice, dem_index i)
 {
     return (lattice->position != NULL ? lattice->position : lattice->x) + 2 * i;
@@ -110,20 +117,33 @@ static double distance_to(const double x[2], const double a[2], const double b[2
     return hypot(r[0] - place * e[0], r[1] - place * e[1]);
 }
 
+/* Sides of all triangles in the order of their ends, some twice: those of each lower end have a place of their own in
+ * the list, where they come one by one. NULL when memory runs out. */
+static side *list_sides(const dem_lattice *lattice, size_t n)
+{
+    size_t *next = calloc((size_t)lattice->n_nodes + 1, sizeof *next);
+    side *list = next != NULL ? calloc(n + 1, sizeof *list) : NULL;
+    for (size_t k = 0; list != NULL && k < n; k++) next[side_of(lattice, k).ends[0] + 1]++;
+    for (dem_index i = 0; list != NULL && i < lattice->n_nodes; i++) next[i + 1] += next[i];
+    for (size_t k = 0; list != NULL && k < n; k++) {
+        const side own = side_of(lattice, k);
+        side *at = &list[next[own.ends[0]]++];
+        for (; at > list && by_ends(at - 1, &own) > 0; at--) *at = *(at - 1);
+        *at = own;
+    }
+    free(next);
+    return list;
+}
+
 /* Returns false when memory runs out. */
 static bool find_rim(rim *out, const dem_lattice *lattice)
 {
     const size_t most = 3 * (size_t)lattice->n_triangles;
-    side *list = calloc(most + 1, sizeof *list);
+    side *list = list_sides(lattice, most);
     *out = (rim){.lattice = lattice, .sides = list};
     if (list == NULL) return false;
     memcpy(out->box, no_box, sizeof no_box);
     for (dem_index i = 0; i < lattice->n_nodes; i++) include(out->box, start_of(lattice, i));
-    for (size_t k = 0; k < most; k++) {
-        const dem_index a = lattice->triangles[k], b = lattice->triangles[k % 3 == 2 ? k - 2 : k + 1];
-        list[k] = a < b ? (side){{a, b}} : (side){{b, a}};
-    }
-    qsort(list, most, sizeof *list, by_ends);
     for (size_t k = 0, next; k < most; k = next) {
         for (next = k + 1; next < most && by_ends(&list[k], &list[next]) == 0;) next++;
         if (next == k + 1) list[out->n++] = list[k];
