@@ -48,7 +48,7 @@ typedef struct sweep {
     double *a;                  /* [n_nodes][2] accelerations */
     double *u;                  /* [n_nodes][2] velocities, as v; NULL: not wanted */
     uint8_t *guarded;           /* [n_blocks] a bit for each node with a triangle on which the guard acts: its
-                                   acceleration is without triangles */
+                                   acceleration is without triangles; NULL, without an area term: not asked for */
     bool looks_at_lowest;       /* where there is no area term: whether `guarded` has, instead, a bit for the lowest
                                    corner of each triangle on which the guard acts, and for some others of its block */
     const sweep_limits *limit; /* [n_blocks] strains that are not asked after. Of a sweep that fills accelerations NULL:

@@ -620,7 +620,8 @@ double SWEEP(const sweep *s, dem_index first, dem_index last, double *ring)
 {
     sweep of_piece = *s;
     double sum = 0.0;
-    if (!s->looks_at_lowest || s->layout->lowest.entries.n == 0) return run_all(s, first, last, ring);
+    const bool looks = s->looks_at_lowest && s->guarded != NULL && s->layout->lowest.entries.n > 0;
+    if (!looks) return run_all(s, first, last, ring);
     for (dem_index from = first; from < last; from += piece) {
         const dem_index end = from + piece < last ? from + piece : last;
         sum += run_all(&of_piece, from, end, ring);

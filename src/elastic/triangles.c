@@ -46,6 +46,40 @@ static bool is_slack(const triangles *t, areas A)
     return t->area_stiffness_of == NULL && !(A.now < TRIANGLES_GUARD_ONSET * A.at_rest);
 }
 
+/* The larger of a square and that of a. */
+static double larger_square(double square, vec2 a)
+{
+    const double own = vec2_dot(a, a);
+    return own > square ? own : square;
+}
+
+/* Where the corners b and c move by w at most relative to the first one, twice the area falls by w (|b| + |c|) + w^2 at
+ * most. If `spare` of it may be lost, and L^2 = 2 (b^2 + c^2) >= (|b| + |c|)^2, w may be
+ *   spare L/(L^2 + spare) <= (sqrt(L^2 + 4 spare) - L)/2
+ *  \return its square */
+static double square_of_way(double spare, vec2 b, vec2 c)
+{
+    const double square = 2.0 * (vec2_dot(b, b) + vec2_dot(c, c)), left = spare > 0.0 ? spare : 0.0;
+    const double part = left / (square + left);
+    return part * part * square;
+}
+
+/* They are looked at whether or not they have a guard. */
+triangles_room triangles_room_to_fold(const triangles *t, dem_index first, const double *x, const double *v)
+{
+    const double folded = 2.0 * TRIANGLES_ROUNDED * t->largest_onset;
+    double way = (double)INFINITY, speed = 0.0;
+    for (dem_index i = first; i < t->n_nodes; i++)
+        for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+            const dem_index j = t->next[p], k = t->last[p];
+            const vec2 b = vec2_sub(vec2_at(x, j), vec2_at(x, i)), c = vec2_sub(vec2_at(x, k), vec2_at(x, i));
+            const vec2 to_b = vec2_sub(vec2_at(v, j), vec2_at(v, i)), to_c = vec2_sub(vec2_at(v, k), vec2_at(v, i));
+            way = fmin(way, square_of_way(vec2_cross(b, c) - folded, b, c));
+            speed = larger_square(larger_square(larger_square(speed, to_b), to_c), vec2_sub(to_c, to_b));
+        }
+    return (triangles_room){sqrt(way), sqrt(speed)};
+}
+
 /* dA/dx_i = (z x (x_last - x_next))/2: the side opposite to node i, turned by 90 degrees towards it, and halved. */
 static vec2 gradient_between(vec2 next, vec2 last)
 {

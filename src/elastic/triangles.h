@@ -138,6 +138,15 @@ sym2 triangles_block(const triangles *t, dem_index i, const double *x);
  *  the sum of this times u_i^2. 0 where it does not act. */
 double triangles_guard_bound(const triangles *t, triangles_integrity integrity, dem_index i, const double *x);
 
+/** How far triangles are from the onset of the guard. */
+typedef struct triangles_room {
+    double way; /* m: it acts on none of them whose corners move relative to each other by less; infinity: no matter */
+    double speed; /* m/s: no corners of one are faster relative to each other */
+} triangles_room;
+
+/** Of those at the nodes from `first` on. */
+triangles_room triangles_room_to_fold(const triangles *t, dem_index first, const double *x, const double *v);
+
 /** A function of J = area / rest area and its derivatives. */
 typedef struct triangles_law {
     double energy, slope, curvature;

@@ -62,6 +62,7 @@ dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, t
                 .sweep = of->sweep,
                 .sweep_guard = of->sweep_guard,
                 .sweep_strain = of->sweep_strain,
+                .fold_pass = of->fold_pass,
                 .ops = of->ops};
     const dem_status status = allocate(&k);
     if (status == DEM_OK)
@@ -267,7 +268,7 @@ static void find_guarded(const kernel *k, const sweep *s, const double *x)
     const dem_index n = s->layout->n_blocks, ahead = s->layout->ahead;
     const dem_index before = s->layout->order != NULL ? ahead : 0;
     sweep all_corners = *s;
-    if (!s->looks_at_lowest) return;
+    if (!s->looks_at_lowest || s->guarded == NULL) return;
     all_corners.looks_at_lowest = false;
     if (before > 0) flag_rest(k, x);
     for (dem_index block = 0, end = 0; block < n; block++) {
@@ -392,7 +393,8 @@ static double accelerate_rest(const kernel *k, const forces *f, const kernel_sta
     double sum = 0.0;
     for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++)
         sum += kernel_accelerate_row(k, f, y, layout_node(l, q));
-    for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
+    for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks && !y->is_unfolded;
+         q = next_guarded(k, q + 1))
         sum += kernel_accelerate_row(k, f, y, layout_node(l, q));
     for (dem_index d = 0; f->elements != NULL && !is_trimmed(k, f->elements) && d < f->elements->n_damaged; d++)
         sum += kernel_accelerate_row(k, f, y, f->elements->damaged[d]);
@@ -469,7 +471,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
                .v = y->v,
                .u = y->u,
                .a = y->a,
-               .guarded = k->guarded,
+               .guarded = y->is_unfolded && !l->stiff ? NULL : k->guarded,
                .looks_at_lowest = !l->stiff,
                .limit = y->fused_step != NULL ? k->limit : NULL,
                .strained = k->strained,
@@ -634,6 +636,14 @@ static void guard_share(const void *context, int share, int thread)
     const stretch b = stretch_of(p->kernel, share);
     (void)thread;
     p->kernel->sweep_guard(p->sweep, b.first, b.last);
+}
+
+triangles_room kernel_room_to_fold(const kernel *k, const double *x, const double *v)
+{
+    const layout *l = &k->model->layout;
+    const triangles_room in = k->fold_pass(l, x, v),
+                         behind = triangles_room_to_fold(&k->model->triangles, LAYOUT_LANES * l->n_blocks, x, v);
+    return (triangles_room){fmin(in.way, behind.way), fmax(in.speed, behind.speed)};
 }
 
 double kernel_guard_bound(const kernel *k, const forces *f, const double *x, dem_index q)

@@ -8,6 +8,7 @@
 
 #include "base/array_ops.h"
 #include "base/team.h"
+#include "elastic/fold_pass.h"
 #include "elastic/sweep.h"
 #include "elastic/trimmed_layout.h"
 #include "forces/border_blocks.h"
@@ -18,6 +19,7 @@ typedef struct kernel {
     sweep_function *sweep;
     sweep_guard_function *sweep_guard;
     sweep_strain_function *sweep_strain;
+    fold_pass_function *fold_pass;
     const array_ops *ops;
     dem_kernel kind; /* not DEM_KERNEL_AUTO */
     team *team;
@@ -73,6 +75,7 @@ typedef struct kernel_state {
     double *a;                          /* accelerations, free of contact */
     const sweep_fused_step *fused_step; /* NULL: none. Else x and v are its x1 and v1, which are filled as well, and
                                            kernel_begin_step() has begun it */
+    bool is_unfolded;                   /* whether it is known that the guard acts on no triangle */
 } kernel_state;
 
 /** Whether the sweep evaluates all blocks as their elements are, so that no nodes are evaluated one by one since an
@@ -98,6 +101,9 @@ void kernel_drift(const kernel *k, const sweep_fused_step *p, dem_index first, d
 /** Fills a of one node, and its v1 with a fused step, as kernel_accelerate() does; the node has been drifted.
  *  \return what it adds to the sum */
 double kernel_accelerate_row(const kernel *k, const forces *f, const kernel_state *y, dem_index i);
+
+/** How far the triangles of a state are from the onset of their guard, where nodes are not renumbered. */
+triangles_room kernel_room_to_fold(const kernel *k, const double *x, const double *v);
 
 /** What the guard adds at most to omega^2 at the node at place q, 1/s^2. */
 double kernel_guard_bound(const kernel *k, const forces *f, const double *x, dem_index q);

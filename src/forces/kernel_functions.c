@@ -17,23 +17,24 @@
 #define sweep_strain_avx2           sweep_strain_portable
 #define sweep_strain_avx512         sweep_strain_portable
 #define sweep_strain_avx512_divider sweep_strain_portable
+#define fold_pass_avx2              fold_pass_portable
+#define fold_pass_avx512            fold_pass_portable
 #define lattice_step_avx512_divider lattice_step_portable
 #endif
 
 /* By dem_kernel. A build without the instruction sets of x86 has the portable functions in their place. */
 static const kernel_functions rows[] = {
-    [DEM_KERNEL_AUTO] = {"auto", NULL, NULL, NULL, NULL, NULL},
+    [DEM_KERNEL_AUTO] = {"auto", NULL, NULL, NULL, NULL, NULL, NULL},
     [DEM_KERNEL_PORTABLE] = {"portable", sweep_portable, sweep_guard_portable, sweep_strain_portable,
-                             lattice_step_portable, &array_ops_portable},
-    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2, sweep_guard_avx2, sweep_strain_avx2, NULL, &array_ops_avx2},
-    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, sweep_guard_avx512, sweep_strain_avx512, NULL, &array_ops_avx512},
+                             fold_pass_portable, lattice_step_portable, &array_ops_portable},
+    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2, sweep_guard_avx2, sweep_strain_avx2, fold_pass_avx2, NULL,
+                         &array_ops_avx2},
+    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, sweep_guard_avx512, sweep_strain_avx512, fold_pass_avx512, NULL,
+                           &array_ops_avx512},
 };
-static const kernel_functions avx512_divider = {"avx512",
-                                                sweep_avx512_divider,
-                                                sweep_guard_avx512_divider,
-                                                sweep_strain_avx512_divider,
-                                                lattice_step_avx512_divider,
-                                                &array_ops_avx512};
+static const kernel_functions avx512_divider = {
+    "avx512",         sweep_avx512_divider,        sweep_guard_avx512_divider, sweep_strain_avx512_divider,
+    fold_pass_avx512, lattice_step_avx512_divider, &array_ops_avx512};
 enum { n_rows = sizeof rows / sizeof rows[0] };
 
 /* Whether this machine and this build have the instruction set. */

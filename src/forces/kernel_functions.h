@@ -4,6 +4,7 @@
 #define DEM_FORCES_KERNEL_FUNCTIONS_H
 
 #include "base/array_ops.h"
+#include "elastic/fold_pass.h"
 #include "elastic/lattice_step.h"
 #include "elastic/sweep.h"
 
@@ -12,6 +13,7 @@ typedef struct kernel_functions {
     sweep_function *sweep;
     sweep_guard_function *sweep_guard;
     sweep_strain_function *sweep_strain;
+    fold_pass_function *fold_pass;
     lattice_step_function *lattice_step; /* NULL: of lattice rows, by which it takes no less time */
     const array_ops *ops;
 } kernel_functions;

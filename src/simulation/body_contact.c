@@ -10,9 +10,12 @@
 
 #include "base/reduce.h"
 #include "base/status.h"
+#include "simulation/guard_bound.h"
 #include "surface_contact/contact_potential.h"
 #include "surface_contact/surface_start.h"
 #include "time/butcher.h"
+
+enum { worth_noting = 4 /* evaluations: a look that notes the bound costs as much as two */ };
 
 dem_status body_contact_create(dem_simulation *s)
 {
@@ -35,7 +38,8 @@ dem_status body_contact_create(dem_simulation *s)
     TRY(rigid_contact_create(&s->rigid, s->model, &s->surfaces->surface));
     step_reach reach;
     TRY(butcher_reach(&reach, o->method));
-    approach_bound_create(&s->surfaces->bound, reach, o->fixed_step > 0.0 ? o->fixed_step : o->max_step);
+    const double longest = o->fixed_step > 0.0 ? o->fixed_step : o->max_step;
+    approach_bound_create(&s->surfaces->bound, reach, longest, worth_noting);
     return body_contact_check_start(s, s->model->lattice.position);
 }
 
@@ -85,6 +89,7 @@ void body_contact_end_step(dem_simulation *s)
 void body_contact_begin_anew(dem_simulation *s)
 {
     if (s->surfaces != NULL) approach_bound_forget(&s->surfaces->bound);
+    guard_bound_forget(s);
 }
 
 dem_status body_contact_failure(const dem_simulation *s)

@@ -21,6 +21,7 @@
 #include "fracture/fracture_source.h"
 #include "model/overlap.h"
 #include "simulation/observers.h"
+#include "surface_contact/approach_bound.h"
 #include "surface_contact/surface_load.h"
 #include "time/integrator.h"
 
@@ -77,6 +78,7 @@ struct dem_simulation {
     rigid_contact *rigid;      /* of rigid bodies with obstacles; NULL: none */
     surface_load pushing;      /* pairs of them in the state as seen, if `measures` has them */
     dem_index crossings;       /* steps rejected because of them */
+    approach_bound unfolded;   /* how near triangles may have come to the onset of their guard */
     bool outgrown;             /* events in the step in hand have brought surfaces nearer than the step knew */
     held_forces held_forces;   /* external ones, in the state as seen, if `measures` has them */
     pose *poses;               /* [obstacles] likewise; NULL: no function of the caller moves any */

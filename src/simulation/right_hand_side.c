@@ -12,6 +12,7 @@
 #include "contact/automaton_step.h"
 #include "forces/band.h"
 #include "simulation/body_contact.h"
+#include "simulation/guard_bound.h"
 #include "time/butcher.h"
 
 /* The first node whose velocity or acceleration is not finite; -1: none. */
@@ -152,9 +153,10 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
     dem_simulation *s = context;
     const dem_index n = state_velocities(&s->layout), n_real = state_row(&s->layout, s->layout.n_nodes);
     const double *v = y + n;
-    const kernel_state nodes = {.x = y, .v = v, .u = u, .a = a};
+    const kernel_state nodes = {.x = y, .v = v, .u = u, .a = a, .is_unfolded = guard_bound_holds(s)};
     const double sum = kernel_accelerate(&s->kernel, &s->forces, &nodes);
     body_contact_take_accelerations(s, sum);
+    guard_bound_take_accelerations(s, sum);
     for (dem_index k = n_real; k < n && u != NULL; k++) u[k] = v[k];
     automaton_constrain(&s->automaton, t, y, a);
     if (isfinite(sum)) rigid_motion_accelerate(&s->model->rigid, y, v, a);
@@ -172,12 +174,14 @@ static int take_fused_step(const ode_fused_step *step, void *context)
     const dem_index n = state_velocities(&s->layout);
     const sweep_fused_step nodes = {
         .h = step->h, .x0 = step->y0, .v0 = step->y0 + n, .a0 = step->f0 + n, .x1 = step->y1, .v1 = step->y1 + n};
-    const kernel_state y = {.x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .fused_step = &nodes};
+    const kernel_state y = {
+        .x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .fused_step = &nodes, .is_unfolded = guard_bound_holds(s)};
     if (!kernel_can_fuse(&s->kernel, &s->forces) || s->automaton.set.forces.n_groups > 0) return -1;
     kernel_begin_step(&s->kernel, &nodes);
     if (run_is_shared(s)) fill_ghosts(step->y1, s);
     const double sum = kernel_accelerate(&s->kernel, &s->forces, &y);
     body_contact_take_accelerations(s, sum);
+    guard_bound_take_accelerations(s, sum);
     automaton_constrain(&s->automaton, step->t1, y.x, y.a);
     fill_rates(s, step->t1, y.x, y.a, 0.0);
     return judge(s, step->t1, y.x, y.a, sum);
@@ -205,6 +209,7 @@ static bool take_fused_steps(const ode_fused_step *steps, int n, void *context)
     if (reduce_any(s->model->ranks, !holds)) return false;
     automaton_fly(&s->automaton, &of_surface);
     body_contact_fly(s, &flight);
+    guard_bound_forget(s);
     for (int k = 0; k < n; k++) begin_rates(&s->layout, steps[k].f1 + v);
     return true;
 }
@@ -216,6 +221,7 @@ _Static_assert((int)ODE_FUSED_STEPS == (int)STEP_WAVE_MOST, "the integrator take
 static bool has_bands(int n_stages, void *context)
 {
     dem_simulation *s = context;
+    guard_bound_forget(s);
     return s->automaton.set.forces.n_groups == 0 && band_is_possible(&s->kernel, &s->forces, s->y, n_stages);
 }
 

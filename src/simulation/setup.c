@@ -14,6 +14,7 @@
 #include "base/status.h"
 #include "contact/contact_constraints.h"
 #include "simulation/body_contact.h"
+#include "simulation/guard_bound.h"
 #include "simulation/breaking.h"
 #include "simulation/checkpoint.h"
 #include "simulation/led_run.h"
@@ -159,6 +160,7 @@ static dem_status set_up(dem_simulation *s)
     TRY(held_forces_create(&s->held_forces, &s->boundaries, s->external, &s->layout));
     TRY(options_fill(&s->options, model, &s->boundaries));
     TRY(body_contact_create(s));
+    TRY(guard_bound_create(s));
     s->forces = forces_of(s);
     TRY(allocate(s));
     memcpy(s->y, model->lattice.position, block);

@@ -15,6 +15,7 @@
 #include "simulation/body_contact.h"
 #include "simulation/breaking.h"
 #include "simulation/checkpoint.h"
+#include "simulation/guard_bound.h"
 #include "simulation/led_run.h"
 #include "simulation/likeness.h"
 #include "simulation/pausing.h"
@@ -295,6 +296,7 @@ static dem_status take_step(dem_simulation *s)
     for (int attempt = 1;; attempt++) {
         bool rooted;
         body_contact_begin_step(s);
+        guard_bound_begin_step(s);
         const dem_status taken = unless_memory_lacked(s, integrator_step(&s->integrator, &s->path, &rooted));
         if (taken == DEM_ERROR_MEMORY) return give_up(s, taken);
         TRY(taken);
@@ -439,6 +441,7 @@ static dem_status commit_step(dem_simulation *s)
     const bool failed = breaks && fracture_source_has_failed(&s->breaks);
     const bool moved = settle_step(s), paused = pausing_end_step(s, broken);
     body_contact_end_step(s);
+    guard_bound_end_step(s);
     TRY(body_contact_settle(s, s->y));
     if (s->at_event) return resolve_event(s);
     s->events += (run_had_events(s) ? s->queue.n_taken : 0) + s->at_break;

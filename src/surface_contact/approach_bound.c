@@ -1,23 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A look that notes the bound costs as much as two without it. Where it does not save as many it is tried again a few
- * steps later only: no result depends on that. */
+/* A look that notes the bound costs more than one without it. Where it does not save enough of these it is tried again
+ * a few steps later only: no result depends on that. */
 #include "surface_contact/approach_bound.h"
 
 #include <math.h>
 
-enum { worth_noting = 4 /* evaluations */, pause = 16 /* steps */ };
+enum { pause = 16 /* steps */ };
 
 static const double rounding = 1.0 + 1e-6;
 
-void approach_bound_create(approach_bound *out, step_reach reach, double longest_step)
+void approach_bound_create(approach_bound *out, step_reach reach, double longest_step, int worth_noting)
 {
-    *out = (approach_bound){
-        .reach = reach, .longest_step = longest_step, .at_start = INFINITY, .largest = INFINITY, .last = INFINITY};
+    *out = (approach_bound){.reach = reach,
+                            .longest_step = longest_step,
+                            .at_start = INFINITY,
+                            .largest = INFINITY,
+                            .last = INFINITY,
+                            .worth_noting = worth_noting};
 }
 
 void approach_bound_lose(approach_bound *b)
 {
-    if (b->is_known && b->n_saved < worth_noting) b->n_to_wait = pause;
+    if (b->is_known && b->n_saved < b->worth_noting) b->n_to_wait = pause;
     b->is_known = false;
 }
 

@@ -97,7 +97,7 @@ static void open_scene(scene *s, gsl_rng *rng, dem_method method)
     *s = (scene){.rng = rng};
     assert_ok(butcher_load(&s->table, method));
     assert_ok(butcher_reach(&reach, method));
-    approach_bound_create(&s->bound, reach, step);
+    approach_bound_create(&s->bound, reach, step, 4);
     for (int c = 0; c < COMPONENTS; c++) s->v[c] = gsl_rng_uniform(rng) - 0.5;
     s->size = 100.0 * pow(10.0, 2.0 * gsl_rng_uniform(rng) - 1.0);
 }
@@ -137,7 +137,7 @@ static int count_steps(double noted)
     approach_bound bound;
     int n = 0;
     assert_ok(butcher_reach(&reach, DEM_METHOD_VERLET));
-    approach_bound_create(&bound, reach, step);
+    approach_bound_create(&bound, reach, step, 4);
     assert_false(approach_bound_begin_step(&bound));
     approach_bound_take(&bound, a);
     approach_bound_end_step(&bound, step);
@@ -165,11 +165,11 @@ TEST(nothing_is_bounded_by_what_is_unknown)
 {
     const step_reach reach = {1.0, 0.5, 1.0};
     approach_bound bound;
-    approach_bound_create(&bound, reach, step);
+    approach_bound_create(&bound, reach, step, 4);
     approach_bound_note(&bound, 1.0, 1.0);
     assert_false(approach_bound_holds(&bound));
     for (int k = 0; k < 3; k++) {
-        approach_bound_create(&bound, reach, step);
+        approach_bound_create(&bound, reach, step, 4);
         approach_bound_take(&bound, 1.0);
         approach_bound_end_step(&bound, step);
         assert_true(approach_bound_begin_step(&bound));
