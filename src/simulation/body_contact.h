@@ -23,7 +23,7 @@ void body_contact_begin_step(dem_simulation *s);
 void body_contact_take_accelerations(dem_simulation *s, double sum);
 
 /** Called when a step has become the state; then, if that has changed or its derivative has, or the integrator starts
- *  anew. */
+ *  anew: then nothing is known any more of how near surfaces are, nor whether triangles fold (guard_bound.h). */
 void body_contact_end_step(dem_simulation *s);
 void body_contact_begin_anew(dem_simulation *s);
 
