@@ -6,6 +6,7 @@
 
 #include "batch.h"
 #include "case_pool.h"
+#include "launcher.h"
 #include "signals.h"
 #include "streams.h"
 
@@ -15,8 +16,11 @@ int main(int argc, char **argv)
     streams_begin();
     signals_catch();
     dem_hdf5_skip_exit();
-    const host h = {
-        .out = stdout, .err = stderr, .terminal = isatty(STDOUT_FILENO) == 1, .requests = signals_requests()};
+    const launcher l = launcher_find();
+    const host h = {.out = stdout,
+                    .err = stderr,
+                    .terminal = isatty(STDOUT_FILENO) == 1 && !launcher_makes_terminal(&l),
+                    .requests = signals_requests()};
     exit_code code = command_parse(&c, &h, argc, argv);
     if (c.action == COMMAND_RUN) signals_catch_end();
     if (code == EXIT_DONE) code = batch_do(&c, case_pool_do);

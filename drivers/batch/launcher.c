@@ -8,13 +8,16 @@
 #include <string.h>
 #include <time.h>
 
+/* Open MPI gives each process a terminal of its own, as the C library holds back what is written elsewhere. */
+static const char open_mpi[] = "OMPI_COMM_WORLD_SIZE";
+
 /* In the order in which they decide. */
 static const struct {
     const char *size, *rank;
-} known[] = {{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"}, /* Open MPI */
-             {"PMI_SIZE", "PMI_RANK"},                         /* MPICH, Intel MPI */
-             {"MV2_COMM_WORLD_SIZE", "MV2_COMM_WORLD_RANK"},   /* MVAPICH */
-             {"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}};        /* srun */
+} known[] = {{open_mpi, "OMPI_COMM_WORLD_RANK"},             /* Open MPI */
+             {"PMI_SIZE", "PMI_RANK"},                       /* MPICH, Intel MPI */
+             {"MV2_COMM_WORLD_SIZE", "MV2_COMM_WORLD_RANK"}, /* MVAPICH */
+             {"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}};      /* srun */
 
 /* Tells a rank and no number of processes. */
 static const char *const pmix_rank = "PMIX_RANK";
@@ -40,6 +43,11 @@ launcher launcher_find(void)
 bool launcher_knows_all(const launcher *l)
 {
     return l->variable != pmix_rank;
+}
+
+bool launcher_makes_terminal(const launcher *l)
+{
+    return l->variable != NULL && strcmp(l->variable, open_mpi) == 0;
 }
 
 void launcher_let_report(const launcher *l)

@@ -19,6 +19,9 @@ launcher launcher_find(void);
 /** Whether the environment tells all processes how many there are, so that all of them know of each other. */
 bool launcher_knows_all(const launcher *l);
 
+/** Whether standard output is a terminal that the launcher has made, whatever its own is: a file, too. */
+bool launcher_makes_terminal(const launcher *l);
+
 /** Launchers end all processes when one of them fails: those that do not report let the one that does be the first, and
  *  wait for two seconds. */
 void launcher_let_report(const launcher *l);

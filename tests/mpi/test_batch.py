@@ -235,9 +235,11 @@ class Runs(unittest.TestCase):
     def check_files(self, *numbers):
         self.assertEqual(self.run_on(0, "one")[0], 0)
         for n in numbers:
-            code, _, errors = self.run_on(n, f"ranks{n}")
+            code, log, errors = self.run_on(n, f"ranks{n}")
             self.assertEqual(code, 0, errors)
             self.assert_same("one", f"ranks{n}")
+            # It is there where standard output is no terminal: Open MPI makes one of it.
+            self.assertEqual(json.loads(log.splitlines()[-1])["exit_code"], 0)
 
 
 class FreeBodies(Runs):

@@ -45,6 +45,15 @@ TEST(launchers_say_how_many_they_have_started)
     assert_found("SLURM_STEP_NUM_TASKS=8 SLURM_PROCID=5 SLURM_JOB_ID=7", "SLURM_STEP_NUM_TASKS", 8, false);
 }
 
+TEST(open_mpi_makes_terminals)
+{
+    const launcher of_open_mpi = find_in("OMPI_COMM_WORLD_SIZE=1 OMPI_COMM_WORLD_RANK=0");
+    const launcher of_srun = find_in("SLURM_STEP_NUM_TASKS=1 SLURM_PROCID=0"), none = find_in("SLURM_JOB_ID=7");
+    assert_true(launcher_makes_terminal(&of_open_mpi));
+    assert_false(launcher_makes_terminal(&of_srun));
+    assert_false(launcher_makes_terminal(&none));
+}
+
 /* The first of several processes cannot know of the others by this one: the second speaks. */
 TEST(a_rank_alone_tells_of_those_below_it)
 {
