@@ -6,7 +6,12 @@
 #ifndef DEM_BASE_INLINE_H
 #define DEM_BASE_INLINE_H
 
+/* Where nothing is optimized it would gain nothing, and sweeps take ten times as long to compile. */
+#ifdef __OPTIMIZE__
 #define INLINE static inline __attribute__((always_inline))
+#else
+#define INLINE static inline
+#endif
 
 /** Before a loop of at most eight rounds, whose number the compiler knows. */
 #define UNROLLED _Pragma("GCC unroll 8")
