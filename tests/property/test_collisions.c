@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Random scenes of 2 to 12 bodies that run into each other, in free space or in a box, which may move: no node is ever
  * inside another body or a wall, the ledger closes, and momentum is what weight and walls have given.
- * `test_collisions [N [SEED]]`: N scenes from a seed on, 200 from 1 by default. */
+ * `test_collisions [N [SEED]]`: N scenes from a seed on, 100 from 1 by default. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 #include "crowd.h"
 #include "verification/support.h"
 
-static int n_scenes = 200;
+static int n_scenes = 100;
 static uint64_t first_seed = 1;
 
 /* A scene, and what has been seen of it. */
