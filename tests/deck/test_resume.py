@@ -50,7 +50,7 @@ BRITTLE = """
 &material youngs_modulus = 1e9, density = 2500, fracture = 'stress', strength = 4e6 /
 &body shape = 'disc', radius = 0.03, spacing = 3e-3, jitter = 0.2, velocity = 0, -8, clearance = 1e-4 /
 &obstacle points = -0.3, -0.02, 0, 0, 0.3, -0.03, restitution = 0, friction = 0.3 /
-&solver checkpoint_steps = 40 /
+&solver checkpoint_steps = 80 /
 &output name = 'a', frame_interval = 5e-5, precision = 'double', events = .true. /
 """
 # Some 5,600 nodes, of which not every step has a row.
