@@ -122,16 +122,22 @@ static outcome worst(const meeting *as, int n, int n_turns, bool smooth)
 }
 
 static const meeting head_on = {0.0, {0.0, 0.0}}, oblique = {0.5, {0.0, 0.0}}, spinning = {0.5, {60.0, -20.0}};
-static const meeting *const meetings[3] = {&head_on, &oblique, &spinning};
+
+static void check_spin(const outcome *coarse, const outcome *fine)
+{
+    assert_true(coarse->spin < 3.5);
+    assert_true(fine->spin < 0.5);
+}
 
 /* If discs of the oblique meeting stuck together they would leave with 21 1/s. Found are changes of up to 2.85, 1.40
  * and 0.76 1/s at R/8 for the three meetings, of 0.38, 0.34 and 0.29 at R/16, of 0.11, 0.08 and 0.06 at R/32. With
  * stepped rims they are 116, 132 and 160 at R/8, 51, 95 and 84 at R/16. */
 TEST(smooth_discs_change_their_spins_by_next_to_nothing)
 {
-    for (int k = 0; k < 3; k++) {
-        assert_true(worst(meetings[k], 8, 3, true).spin < 3.5);
-        assert_true(worst(meetings[k], 16, 3, true).spin < 0.5);
+    static const meeting *const meetings[2] = {&oblique, &spinning}; /* head on: the next test */
+    for (int k = 0; k < 2; k++) {
+        const outcome coarse = worst(meetings[k], 8, 3, true), fine = worst(meetings[k], 16, 3, true);
+        check_spin(&coarse, &fine);
     }
     assert_true(worst(&oblique, 8, 3, false).spin > 20.0);
 }
@@ -146,9 +152,10 @@ static void so_at_a_finer_spacing(void **state)
  * 0.803 and 0.938 at R/8 and R/16. */
 TEST(the_restitution_of_smooth_discs_hardly_depends_on_the_spacing)
 {
-    const double coarse = worst(&head_on, 8, 3, true).restitution, fine = worst(&head_on, 16, 3, true).restitution;
-    assert_close(coarse, fine, 0.006);
-    assert_true(worst(&head_on, 8, 3, false).restitution < fine - 0.1);
+    const outcome coarse = worst(&head_on, 8, 3, true), fine = worst(&head_on, 16, 3, true);
+    check_spin(&coarse, &fine);
+    assert_close(coarse.restitution, fine.restitution, 0.006);
+    assert_true(worst(&head_on, 8, 3, false).restitution < fine.restitution - 0.1);
 }
 
 int main(int argc, char **argv)
