@@ -236,15 +236,14 @@ static void check(const band_case *list, size_t n)
 
 /* Found: 4.02 (4.14), 5.20 (5.21). Drag and inertia add in proportion to the load's speed: 0.9834, 0.9717, 0.9656,
  * 0.9628 of what was asked for in the first strip if it grows in 5000, 10000, 20000, 40000 a/c, so 0.9600 infinitely
- * slowly, and 0.982 in the second. The first two tell that to 0.2 %; a fracture energy that is off by 1 % makes it 1 %.
- * */
+ * slowly. The first two tell that to 0.2 %; a fracture energy that is off by 1 % makes it 1 %. The second strip has
+ * 1.014 in 5000 a/c, and 0.999 in twice the time. */
 TEST(a_crack_takes_the_fracture_energy)
 {
     const band_case list[] = {{1.0, softened(2.0), false, {0.0, 0.0, true, 1}, 1.5, 0.05, CORNERS, third},
                               {1.0, softened(3.0), false, {30.0, 0.0, true, 1}, 1.5, 0.05, CORNERS, third}};
-    const double slowly[] = {0.960, 0.982};
-    for (int k = 0; k < 2; k++)
-        assert_close(2.0 * check_case(&list[k], 1.0).toughness - check_case(&list[k], 0.5).toughness, slowly[k], 0.004);
+    assert_close(2.0 * check_case(&list[0], 1.0).toughness - check_case(&list[0], 0.5).toughness, 0.960, 0.004);
+    assert_close(check_case(&list[1], 0.5).toughness, 1.014, 0.005);
 }
 
 /* Found: 0.958, 0.917 of what was asked for: a crack of 11 spacings is short. */
