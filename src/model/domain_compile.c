@@ -150,20 +150,11 @@ static dem_status compile_surface(dem_model *m, bool touching)
     return DEM_OK;
 }
 
-static dem_status compile_elements(dem_model *m)
-{
-    TRY(springs_compile(&m->springs, &m->lattice));
-    TRY(csr_view_create(&m->csr, &m->springs));
-    TRY(triangles_compile(&m->triangles, &m->lattice));
-    TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
-    return layout_compile(&m->layout, &m->springs, &m->triangles, &m->couplings);
-}
-
 dem_status domain_compile(domain_cut *c, const dem_obstacle *obstacles, dem_index n_obstacles, bool touching)
 {
     dem_model *m = c->model;
     TRY(compile_cut(c));
-    TRY(compile_elements(m));
+    TRY(model_rows_compile(m));
     TRY(compile_surface(m, touching));
     TRY(obstacles_compile(&m->obstacles, obstacles, n_obstacles));
     return breakable_lattice(&m->lattice) ? stress_prepare(&m->stress) : DEM_OK;

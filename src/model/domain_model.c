@@ -184,7 +184,7 @@ static dem_status cut_slabs(domain_cut *c, slab_rows *rows, domain_model_shares 
                       .rigid = &none,
                       .n = {rows->n[LATTICE_NODES], rows->n[LATTICE_SPRINGS], rows->n[LATTICE_TRIANGLES]},
                       .has_obstacles = has_obstacles,
-                      .is_slack = rows->lattice->area_stiffness == NULL && rows->lattice->coupling == NULL,
+                      .is_slack = whole_lattice_is_slack(rows->lattice),
                       .counting = r};
     const region_extent extent = extent_of(&of, r, &shares);
     surroundings g;

@@ -186,6 +186,7 @@ dem_status dem_model_constants(const dem_model *model, dem_index body, dem_const
     CHECK(model->ranks->size == 1, DEM_ERROR_ARGUMENT,
           "dem_model_constants: %d ranks share the model, of which each has a part alone", model->ranks->size);
     TRY(status_check_number("body", body, model->n_bodies));
+    TRY(model_rows_renew(model));
     for (dem_index k = 0; k < model->rigid.n; k++)
         CHECK(model->rigid.list[k].number != body, DEM_ERROR_MODEL, "body %lld is rigid: it has no elastic constants",
               (long long)body);

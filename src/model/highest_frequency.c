@@ -165,6 +165,7 @@ static dem_status allocate(lanczos *l)
 dem_status dem_model_omega(const dem_model *model, double *omega)
 {
     CHECK(model != NULL && omega != NULL, DEM_ERROR_ARGUMENT, "dem_model_omega: %s is NULL", model ? "omega" : "model");
+    TRY(model_rows_renew(model));
     lanczos *l = calloc(1, sizeof *l);
     CHECK_MEMORY(l);
     double found = 0.0;

@@ -82,11 +82,7 @@ static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const 
     TRY(dem_lattice_append(&m->lattice, lattice));
     TRY(fill_defaults(&m->lattice));
     TRY(rigid_bodies_compile(&m->rigid, &m->lattice));
-    TRY(springs_compile(&m->springs, &m->lattice));
-    TRY(csr_view_create(&m->csr, &m->springs));
-    TRY(triangles_compile(&m->triangles, &m->lattice));
-    TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
-    TRY(layout_compile(&m->layout, &m->springs, &m->triangles, &m->couplings));
+    TRY(model_rows_compile(m));
     TRY(surface_compile(&m->surface, &m->lattice, SURFACE_TOUCHING));
     TRY(stress_compile(&m->stress, &m->lattice, &m->springs, &m->couplings));
     TRY(obstacles_compile(&m->obstacles, list, n));
@@ -137,11 +133,7 @@ void dem_model_destroy(dem_model *model)
     if (model == NULL) return;
     if (model->lattice.position == model->lattice.x) model->lattice.position = NULL; /* is freed once */
     dem_lattice_free(&model->lattice);
-    csr_view_free(model->csr);
-    springs_free(&model->springs);
-    triangles_free(&model->triangles);
-    couplings_free(&model->couplings);
-    layout_free(&model->layout);
+    model_rows_free(model);
     surface_free(&model->surface);
     stress_free(&model->stress);
     obstacles_free(&model->obstacles);
@@ -171,6 +163,7 @@ dem_status dem_model_csr(const dem_model *model, dem_csr *out)
 {
     CHECK(model != NULL && out != NULL, DEM_ERROR_ARGUMENT, "dem_model_csr: %s is NULL", model ? "out" : "model");
     dem_csr own;
+    TRY(model_rows_renew(model));
     TRY(csr_view_show(model->csr, &own));
     return struct_size_write(&STRUCT_KIND(dem_csr), out, &own);
 }

@@ -22,6 +22,7 @@ struct dem_model {
     domain *domain;            /* of this one; NULL: all nodes are here */
     touching_bodies *touching; /* of the domain, if bodies may touch each other in it; else NULL */
     dem_lattice lattice;       /* own copy; flags, body, position and velocity always filled */
+    bool lacks_rows;           /* whether what is in rows here has been given up */
     springs springs;
     csr_view *csr; /* of the springs, for programs */
     triangles triangles;
@@ -45,6 +46,20 @@ struct dem_model {
  *                (coupled_bound_given()); NULL: all are here
  *  \return DEM_ERROR_MEMORY, DEM_ERROR_MODEL if a frequency is not finite; on all ranks */
 dem_status model_find_scales(dem_model *m, const double *given);
+
+/** Compiles what forces are computed with (model_rows.c): springs and triangles in rows, couplings, their layout. All
+ *  that follows from the lattice. Free with model_rows_free(), after a failure, too.
+ *  \return DEM_ERROR_MEMORY, DEM_ERROR_MODEL for more springs or triangles than rows can number */
+dem_status model_rows_compile(dem_model *m);
+void model_rows_free(dem_model *m);
+
+/** Frees that until model_rows_renew(), while nobody looks at it: no simulation of the model is advanced. Where
+ *  something may break it stays, as who shows what is broken reads it. */
+void model_rows_give_up(const dem_model *m);
+
+/** Compiles it again, as it was, if it has been given up.
+ *  \return as model_rows_compile(); then it stays given up */
+dem_status model_rows_renew(const dem_model *m);
 
 /** The number of node i in the whole lattice, of which the model may have a part. */
 static inline dem_index model_node(const dem_model *m, dem_index i)

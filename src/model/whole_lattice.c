@@ -16,7 +16,12 @@ whole_parts whole_parts_of(const dem_model *m)
                          .rigid = &m->rigid,
                          .n = {l->n_nodes, l->n_springs, l->n_triangles},
                          .has_obstacles = m->obstacles.n > 0,
-                         .is_slack = !m->layout.stiff && !m->layout.coupled};
+                         .is_slack = whole_lattice_is_slack(l)};
+}
+
+bool whole_lattice_is_slack(const dem_lattice *lattice)
+{
+    return lattice->area_stiffness == NULL && lattice->coupling == NULL;
 }
 
 int whole_lattice_rings(const dem_lattice *lattice)

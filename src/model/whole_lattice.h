@@ -20,7 +20,7 @@ typedef struct whole_parts {
     const dem_index *number[LATTICE_ITEMS];
     const ranks *counting; /* as domain_shares has it */
     bool has_obstacles;
-    bool is_slack; /* whether no triangle has an area term or couplings */
+    bool is_slack; /* whole_lattice_is_slack() */
 } whole_parts;
 
 typedef struct whole_lattice {
@@ -45,6 +45,9 @@ void whole_lattice_close(whole_lattice *w);
 
 /** How many rings of ghosts there are at most. Of the lattice only is looked at which arrays there are. */
 int whole_lattice_most_rings(const whole_parts *of, int n_ranks, const domain_model_shares *shares);
+
+/** Whether no triangle has an area term or couplings. */
+bool whole_lattice_is_slack(const dem_lattice *lattice);
 
 /** How many rings of neighbours about what events may concern ranks have in common. */
 int whole_lattice_rings(const dem_lattice *lattice);

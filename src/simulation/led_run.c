@@ -457,6 +457,7 @@ static dem_status advance_parts(led_run *l, double t_end)
 dem_status led_run_advance(dem_simulation *whole, double t_end)
 {
     led_run *l = whole->leads;
+    model_rows_give_up(whole->model);
     for (;;) {
         if (!l->is_observed) TRY(attach(l));
         const dem_status status = advance_parts(l, t_end);

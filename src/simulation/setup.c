@@ -228,6 +228,7 @@ static dem_status create(dem_simulation **out, const dem_model *model, const dem
           out == NULL ? "out" : (model == NULL ? "model" : "options"));
     dem_options own;
     TRY(reduce_status(model->ranks, options_read(&own, options), 0.0));
+    TRY(model_rows_renew(model)); /* a part of a model that ranks share has them */
     freed_memory_return(model->lattice.n_nodes);
     dem_simulation *s = calloc(1, sizeof *s);
     CHECK_MEMORY(s);
@@ -266,7 +267,6 @@ void dem_simulation_destroy(dem_simulation *s)
     breaking_destroy(s);
     boundary_conditions_free(&s->boundaries);
     rigid_contact_destroy(s->rigid);
-    surface_contact_destroy(s->surfaces);
     surface_load_free(&s->pushing);
     external_force_destroy(s->external);
     held_forces_destroy(&s->held_forces);

@@ -19,5 +19,7 @@ void step_parts_destroy(dem_simulation *s)
     contact_source_destroy(&s->contact_events);
     local_springs_destroy(&s->local_springs);
     automaton_destroy(&s->automaton);
+    surface_contact_destroy(s->surfaces);
+    s->surfaces = s->forces.surfaces = NULL;
     if (s->survey != NULL) survey_destroy(s->survey);
 }

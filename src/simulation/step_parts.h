@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The parts of a simulation that steps and events are computed with: integrator, kernel, contacts, queue of events. */
+/* The parts of a simulation that steps and events are computed with: integrator, kernel, contacts with
+ * obstacles and between bodies, queue of events. */
 #ifndef DEM_SIMULATION_STEP_PARTS_H
 #define DEM_SIMULATION_STEP_PARTS_H
 
