@@ -111,20 +111,28 @@ static dem_status make(dem_checkpoint *checkpoint, const char *name, size_t size
     return DEM_OK;
 }
 
-/* An entry of this name is replaced. Memory is asked for before the old bytes are touched. */
+/* Memory is asked for before the old bytes are touched. */
+dem_status checkpoint_entries_make(dem_checkpoint *checkpoint, const char *name, size_t size, void **data)
+{
+    entry *e = find(checkpoint, name);
+    if (e == NULL)
+        TRY(make(checkpoint, name, size, &e));
+    else
+        TRY(reserve(e, size));
+    e->size = size;
+    *data = e->data;
+    return DEM_OK;
+}
+
 dem_status dem_checkpoint_put(dem_checkpoint *checkpoint, const char *name, const void *data, size_t size)
 {
     CHECK(checkpoint != NULL && name != NULL && (data != NULL || size == 0), DEM_ERROR_ARGUMENT,
           "dem_checkpoint_put: an argument is NULL");
     CHECK(*name != '\0' && strlen(name) < NAME, DEM_ERROR_ARGUMENT, "\"%s\" cannot name an entry: 1 to %d characters",
           name, NAME - 1);
-    entry *e = find(checkpoint, name);
-    if (e == NULL)
-        TRY(make(checkpoint, name, size, &e));
-    else
-        TRY(reserve(e, size));
-    if (size > 0) memcpy(e->data, data, size);
-    e->size = size;
+    void *to;
+    TRY(checkpoint_entries_make(checkpoint, name, size, &to));
+    if (size > 0) memcpy(to, data, size);
     return DEM_OK;
 }
 
@@ -151,6 +159,20 @@ dem_status checkpoint_entries_copy(dem_checkpoint *into, const dem_checkpoint *f
 {
     for (dem_index k = 0; k < from->n; k++)
         TRY(dem_checkpoint_put(into, from->entries[k].name, from->entries[k].data, from->entries[k].size));
+    return DEM_OK;
+}
+
+dem_status checkpoint_entries_move(dem_checkpoint *into, dem_checkpoint *from)
+{
+    for (dem_index k = 0; k < from->n; k++) {
+        entry *moved = &from->entries[k], *e = find(into, moved->name);
+        if (e == NULL) TRY(make(into, moved->name, 0, &e));
+        free(e->data);
+        *e = *moved;
+        moved->data = NULL;
+        moved->size = moved->capacity = 0;
+    }
+    from->n = 0;
     return DEM_OK;
 }
 

@@ -10,6 +10,17 @@
 /** Puts all entries of a checkpoint into another.  \return DEM_ERROR_MEMORY */
 dem_status checkpoint_entries_copy(dem_checkpoint *into, const dem_checkpoint *from);
 
+/** Moves all entries of a checkpoint into another, in place of those of the same names. The first is empty afterwards.
+ *  \return DEM_ERROR_MEMORY, with some of them moved, which are empty in the first */
+dem_status checkpoint_entries_move(dem_checkpoint *into, dem_checkpoint *from);
+
+/** Makes an entry of so many bytes, or gives that of this name as many, for the caller to write: no copy of them is
+ *  needed elsewhere.
+ *  \param name       1 to 31 characters
+ *  \param[out] data  its bytes, of any values, until the entry is put again
+ *  \return DEM_ERROR_MEMORY, then the entry is as it was */
+dem_status checkpoint_entries_make(dem_checkpoint *checkpoint, const char *name, size_t size, void **data);
+
 /** Puts all entries of rank 0's checkpoint into that of every other rank. Collective.
  *  \param from  read on rank 0
  *  \param into  written on the others

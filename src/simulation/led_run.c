@@ -380,11 +380,19 @@ void led_run_forget_peaks(const dem_simulation *whole, const dem_peaks *peaks)
     s->whole[shared_peaks_number(s, peaks)] = NULL;
 }
 
+static dem_status bring_peaks(led_run *l, int k)
+{
+    dem_peaks *whole = l->peaks.whole[k];
+    if (whole == NULL || whole->nodes != NULL) return DEM_OK;
+    const dem_status status = pass_peaks(l, RANK_CALL_PEAKS_BRING, k);
+    if (status != DEM_OK) peaks_give_up(whole);
+    return status;
+}
+
 /* Before the parts end. */
 static dem_status bring_all_peaks(led_run *l)
 {
-    for (int k = 0; k < OBSERVERS_MOST; k++)
-        if (l->peaks.whole[k] != NULL && l->peaks.whole[k]->nodes == NULL) TRY(pass_peaks(l, RANK_CALL_PEAKS_BRING, k));
+    for (int k = 0; k < OBSERVERS_MOST; k++) TRY(bring_peaks(l, k));
     return DEM_OK;
 }
 

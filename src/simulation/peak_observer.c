@@ -15,7 +15,10 @@
 /* From the ranks that have them. */
 static dem_status bring(dem_peaks *p)
 {
-    return p->nodes == NULL ? led_run_bring_peaks(p->away, p) : DEM_OK;
+    if (p->nodes != NULL) return DEM_OK;
+    const dem_status status = led_run_bring_peaks(p->away, p);
+    if (status != DEM_OK) peaks_give_up(p);
+    return status;
 }
 
 /* As the program asks for them, which knows nothing of ranks. */
@@ -44,7 +47,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
     return status;
 }
 
-static const char entry_every[] = "peaks.every";
+static const char entry_every[] = "peaks.every", entry_nodes[] = "peaks.nodes", entry_springs[] = "peaks.springs";
 
 /* Checkpoints of older versions do not say it. */
 static dem_status check_every(const dem_peaks *p, const dem_checkpoint *from)
@@ -63,8 +66,22 @@ static dem_status check_every(const dem_peaks *p, const dem_checkpoint *from)
 /* Puts what a checkpoint contains of the peaks into it, or gets it from there. */
 static dem_status pass(dem_peaks *p, const checkpoint_entries_way *way)
 {
-    TRY(checkpoint_entries_pass(way, "peaks.nodes", p->nodes, (size_t)p->n_nodes * sizeof *p->nodes));
-    return checkpoint_entries_pass(way, "peaks.springs", p->springs, (size_t)p->n_springs * sizeof *p->springs);
+    TRY(checkpoint_entries_pass(way, entry_nodes, p->nodes, (size_t)p->n_nodes * sizeof *p->nodes));
+    return checkpoint_entries_pass(way, entry_springs, p->springs, (size_t)p->n_springs * sizeof *p->springs);
+}
+
+/* From the ranks that have them to the checkpoint, and nowhere else. */
+static dem_status bring_into(dem_peaks *p, dem_checkpoint *checkpoint)
+{
+    void *of_nodes, *of_springs;
+    TRY(checkpoint_entries_make(checkpoint, entry_nodes, (size_t)p->n_nodes * sizeof *p->nodes, &of_nodes));
+    TRY(checkpoint_entries_make(checkpoint, entry_springs, (size_t)p->n_springs * sizeof *p->springs, &of_springs));
+    p->nodes = of_nodes;
+    p->springs = of_springs;
+    const dem_status status = led_run_bring_peaks(p->away, p);
+    p->nodes = NULL;
+    p->springs = NULL;
+    return status;
 }
 
 /* The observer's checkpoint. */
@@ -73,9 +90,8 @@ static dem_status remember(void *context, const dem_simulation *simulation, dem_
     const checkpoint_entries_way way = {.into = checkpoint};
     dem_peaks *p = context;
     (void)simulation;
-    TRY(bring(p));
     TRY(checkpoint_entries_pass(&way, entry_every, &p->every, sizeof p->every));
-    return pass(p, &way);
+    return p->nodes != NULL ? pass(p, &way) : bring_into(p, checkpoint);
 }
 
 /* ---- the largest ---- */

@@ -14,27 +14,33 @@
 
 static const char entry[] = "state";
 
+/* The state of the whole, in place of that of a part. */
+static dem_status make_state(dem_checkpoint *checkpoint, const state_layout *of, double **out)
+{
+    void *bytes;
+    const size_t size = (size_t)state_size(of) * sizeof **out;
+    TRY(checkpoint_entries_make(checkpoint, entry, size, &bytes));
+    *out = memset(bytes, 0, size);
+    return DEM_OK;
+}
+
 dem_status shared_checkpoint_gather(const dem_simulation *s, dem_checkpoint *checkpoint)
 {
     const dem_model *m = s->model;
     const state_layout *of = &s->shared.whole;
     const bool is_root = m->ranks->rank == 0;
-    const size_t n = (size_t)state_size(of);
     const double *v = s->y + state_velocities(&s->layout);
     const gather_items nodes = gather_nodes(m->domain);
     const size_t row = (size_t)of->dim * sizeof *v;
-    double *whole = is_root ? calloc(n, sizeof *whole) : NULL;
-    dem_status status = DEM_OK;
-    if (is_root && whole == NULL) status = status_fail(DEM_ERROR_MEMORY, "out of memory for a checkpoint");
+    double *whole = NULL;
+    dem_status status = is_root ? make_state(checkpoint, of, &whole) : DEM_OK;
     status = reduce_status(m->ranks, status, 0.0);
     if (status == DEM_OK) status = gather_rows(m->ranks, &nodes, row, s->y, whole);
     if (status == DEM_OK) status = gather_rows(m->ranks, &nodes, row, v, is_root ? whole + state_velocities(of) : NULL);
     if (status == DEM_OK && is_root) {
         state_copy_quadratures(whole, of, s->y, &s->layout);
-        status = dem_checkpoint_put(checkpoint, entry, whole, n * sizeof *whole);
-        if (status == DEM_OK) status = shared_breaks_expand(s, checkpoint);
+        status = shared_breaks_expand(s, checkpoint);
     }
-    free(whole);
     return reduce_status(m->ranks, status, 0.0);
 }
 

@@ -23,7 +23,7 @@ static dem_status take(const dem_model *m, const dem_peaks *whole, dem_peaks *pa
     return gather_back(m->ranks, &of_springs, sizeof *part->springs, is_root ? whole->springs : NULL, part->springs);
 }
 
-/* The other way round. Unless all come there are none. */
+/* The other way round, to where there is room for them, or room is made. */
 static dem_status bring(const dem_model *m, dem_peaks *whole, const dem_peaks *part)
 {
     const gather_items of_nodes = gather_nodes(m->domain), of_springs = gather_springs(m->domain, &m->lattice);
@@ -34,7 +34,6 @@ static dem_status bring(const dem_model *m, dem_peaks *whole, const dem_peaks *p
     if (status == DEM_OK)
         status =
             gather_rows(m->ranks, &of_springs, sizeof *part->springs, part->springs, is_root ? whole->springs : NULL);
-    if (status != DEM_OK && is_root) peaks_give_up(whole);
     return status;
 }
 

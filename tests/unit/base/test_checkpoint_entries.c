@@ -57,6 +57,20 @@ static void check(const dem_checkpoint *checkpoint)
     assert_int_equal(size, sizeof numbers);
 }
 
+static void assert_same_files(const char *a, const char *b)
+{
+    unsigned char bytes[2][16384];
+    size_t size[2];
+    for (int k = 0; k < 2; k++) {
+        FILE *file = fopen(k == 0 ? a : b, "rb");
+        assert_non_null(file);
+        size[k] = fread(bytes[k], 1, sizeof bytes[k], file);
+        assert_int_equal(fclose(file), 0);
+    }
+    assert_int_equal(size[0], size[1]);
+    assert_memory_equal(bytes[0], bytes[1], size[0]);
+}
+
 /* ---- entries ---- */
 
 typedef struct sharing {
@@ -108,6 +122,34 @@ TEST(entries_are_copied_replaced_and_found)
     check(other);
     dem_checkpoint_destroy(other);
     dem_checkpoint_destroy(NULL);
+}
+
+/* In the order that they had, as files of them are compared; what the other one had besides stays. */
+TEST(entries_are_moved_in_their_order)
+{
+    CLEANUP(free_checkpoint) dem_checkpoint *from = make(), *into, *copy;
+    size_t size;
+    void *data;
+    assert_ok(dem_checkpoint_create(&into));
+    assert_ok(dem_checkpoint_create(&copy));
+    assert_ok(dem_checkpoint_put(into, "more", "12345678", 8));
+    assert_ok(dem_checkpoint_put(into, "word", "w", 1));
+    assert_ok(checkpoint_entries_copy(copy, into));
+    assert_ok(checkpoint_entries_copy(copy, from));
+    const void *numbers = dem_checkpoint_find(from, "numbers", &size);
+    assert_ok(checkpoint_entries_move(into, from));
+    assert_null(dem_checkpoint_find(from, "numbers", &size));
+    assert_ptr_equal(dem_checkpoint_find(into, "numbers", &size), numbers);
+    check(into);
+    assert_memory_equal(dem_checkpoint_find(into, "more", &size), "12345678", 8);
+    assert_ok(dem_checkpoint_write(into, FILE_NAME));
+    assert_ok(dem_checkpoint_write(copy, "test_checkpoint.good"));
+    assert_same_files(FILE_NAME, "test_checkpoint.good");
+    assert_ok(checkpoint_entries_make(from, "numbers", 3, &data));
+    memcpy(data, "abc", 3);
+    assert_ok(checkpoint_entries_move(into, from));
+    assert_memory_equal(dem_checkpoint_find(into, "numbers", &size), "abc", 3);
+    assert_int_equal(size, 3);
 }
 
 static void refuse(dem_status got, dem_status status, const char *message)
