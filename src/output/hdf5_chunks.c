@@ -86,27 +86,43 @@ static hsize_t count_inflated(unsigned char *packed, hsize_t size, hsize_t enoug
     return n;
 }
 
-/* Whether the stored bytes of the chunk give at least its extent. */
-static bool gives_all(hid_t dataset, const chunk_form *f, const hsize_t *at, unsigned char *stored, hsize_t size)
+/* Whether the stored bytes of the chunk give at least its extent.
+ * \param enough  bytes after which no more are unpacked */
+static bool gives_all(hid_t dataset, const chunk_form *f, const hsize_t *at, hsize_t enough, unsigned char *stored,
+                      hsize_t size)
 {
     uint32_t left_out = 0; /* the filters that were not used for this chunk, a bit each */
     if (H5Dread_chunk(dataset, H5P_DEFAULT, at, &left_out, stored) < 0) return false;
     const bool packed = f->deflate >= 0 && (left_out >> f->deflate & 1) == 0;
-    return (packed ? count_inflated(stored, size, f->bytes) : size) >= f->bytes;
+    return (packed ? count_inflated(stored, size, enough) : size) >= f->bytes;
 }
 
-/* A chunk that was never written is read as zeros. Where the index gives no size, reading fails and says why. */
-static dem_status check_chunk(const char *path, const char *name, hid_t dataset, const chunk_form *f, const hsize_t *at)
+/* Bytes that are stored of a chunk; 0 where it was never written, and is read as zeros, or where the index gives no
+ * size: then reading fails and says why. */
+static hsize_t bytes_stored(hid_t dataset, const hsize_t *at)
 {
     hsize_t size = 0;
-    if (H5Dget_chunk_storage_size(dataset, at, &size) < 0 || size == 0) return DEM_OK;
-    bool whole = size <= bytes_of_file(dataset) && size <= UINT_MAX;
-    if (whole) {
-        unsigned char *stored = malloc((size_t)size);
-        CHECK_MEMORY(stored);
-        whole = gives_all(dataset, f, at, stored, size);
-        free(stored);
-    }
+    return H5Dget_chunk_storage_size(dataset, at, &size) < 0 ? 0 : size;
+}
+
+/* Reads what is stored of a chunk. */
+static dem_status look_into(hid_t dataset, const chunk_form *f, const hsize_t *at, hsize_t enough, bool *whole)
+{
+    const hsize_t size = bytes_stored(dataset, at);
+    *whole = size <= bytes_of_file(dataset) && size <= UINT_MAX;
+    if (!*whole) return DEM_OK;
+    unsigned char *stored = malloc((size_t)size);
+    CHECK_MEMORY(stored);
+    *whole = gives_all(dataset, f, at, enough, stored, size);
+    free(stored);
+    return DEM_OK;
+}
+
+static dem_status check_chunk(const char *path, const char *name, hid_t dataset, const chunk_form *f, const hsize_t *at)
+{
+    bool whole;
+    if (bytes_stored(dataset, at) == 0) return DEM_OK;
+    TRY(look_into(dataset, f, at, f->bytes, &whole));
     CHECK(whole, DEM_ERROR_IO, "%s: %s: cannot be read (a chunk is shorter than its extent)", path, name);
     return DEM_OK;
 }
@@ -134,6 +150,21 @@ dem_status hdf5_chunks_check(const char *path, const char *name, hid_t dataset, 
     do TRY(check_chunk(path, name, dataset, &f, at));
     while (go_on(&f, start, count, at));
     return DEM_OK;
+}
+
+dem_status hdf5_chunks_unpack(hid_t dataset, const hsize_t *start, const hsize_t *count, bool *all)
+{
+    const chunk_form f = form_of(dataset);
+    hsize_t at[HDF5_MAX_RANK] = {0};
+    bool whole = true;
+    *all = f.rank > 0 && f.deflate >= 0;
+    if (!*all) return DEM_OK;
+    for (int d = 0; d < f.rank; d++) at[d] = start[d] - start[d] % f.extent[d];
+    do {
+        *all = *all && bytes_stored(dataset, at) > 0;
+        if (*all) TRY(look_into(dataset, &f, at, UINT64_MAX, &whole));
+    } while (*all && whole && go_on(&f, start, count, at));
+    return whole ? DEM_OK : DEM_ERROR_IO;
 }
 
 herr_t hdf5_chunks_read(hid_t dataset, hid_t type, const hsize_t *start, const hsize_t *count, int rank, void *buffer)

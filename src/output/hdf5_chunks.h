@@ -21,6 +21,12 @@ hid_t hdf5_chunks_open(hid_t file, const char *name);
 dem_status hdf5_chunks_check(const char *path, const char *name, hid_t dataset, const hsize_t *start,
                              const hsize_t *count, int rank);
 
+/** Reads the deflated chunks in which a block of numbers is, and unpacks them to the end, where their checksum stands,
+ *  a little at a time: what that gives is thrown away.
+ *  \param[out] all  false: some of them are not deflated, or not there
+ *  \return DEM_ERROR_IO, without a message, if one is damaged or holds less than its extent; DEM_ERROR_MEMORY */
+dem_status hdf5_chunks_unpack(hid_t dataset, const hsize_t *start, const hsize_t *count, bool *all);
+
 /** Reads `count` [rank] numbers in each dimension from `start` [rank] on.
  *  \return negative on failure */
 herr_t hdf5_chunks_read(hid_t dataset, hid_t type, const hsize_t *start, const hsize_t *count, int rank, void *buffer);

@@ -60,24 +60,43 @@ hid_t hdf5_parents(void)
     return links;
 }
 
-/* Reads a whole dataset chunk by chunk and throws the numbers away. Returns DEM_OK, DEM_ERROR_MEMORY or DEM_ERROR_IO;
- * the message is the caller's. */
-static dem_status read_slabs(hid_t dataset, hid_t type, hsize_t *extent, int rank)
+/* Reads a block of numbers and throws them away. */
+static dem_status read_slab(hid_t dataset, hid_t type, const hsize_t *start, const hsize_t *extent, int rank)
 {
-    hsize_t start[HDF5_MAX_RANK] = {0}, chunk[HDF5_MAX_RANK] = {1, 1, 1}, cells = 1;
-    const hid_t layout = H5Dget_create_plist(dataset);
-    herr_t result = H5Pget_layout(layout) == H5D_CHUNKED ? H5Pget_chunk(layout, rank, chunk) : 0;
-    (void)H5Pclose(layout);
-    /* A slab is as many rows as a chunk has, and all columns. */
-    for (int d = 1; d < rank; d++) cells *= extent[d];
-    void *buffer = malloc((size_t)(chunk[0] * cells) * H5Tget_size(type));
+    size_t size = H5Tget_size(type);
+    for (int d = 0; d < rank; d++) size *= (size_t)extent[d];
+    void *buffer = malloc(size);
     if (buffer == NULL) return DEM_ERROR_MEMORY;
-    for (const hsize_t rows = extent[0]; result >= 0 && start[0] < rows; start[0] += chunk[0]) {
-        extent[0] = rows - start[0] < chunk[0] ? rows - start[0] : chunk[0];
-        result = hdf5_chunks_read(dataset, type, start, extent, rank, buffer);
-    }
+    const herr_t result = hdf5_chunks_read(dataset, type, start, extent, rank, buffer);
     free(buffer);
     return result < 0 ? DEM_ERROR_IO : DEM_OK;
+}
+
+/* The same, but that numbers which are deflated are not all in memory at once. */
+static dem_status read_chunks(hid_t dataset, hid_t type, const hsize_t *start, const hsize_t *extent, int rank)
+{
+    bool all;
+    TRY(hdf5_chunks_unpack(dataset, start, extent, &all));
+    return all ? DEM_OK : read_slab(dataset, type, start, extent, rank);
+}
+
+/* Reads a whole dataset chunk by chunk. Returns DEM_OK, DEM_ERROR_MEMORY or DEM_ERROR_IO; the message is the
+ * caller's. */
+static dem_status read_slabs(hid_t dataset, hid_t type, hsize_t *extent, int rank)
+{
+    hsize_t start[HDF5_MAX_RANK] = {0}, chunk[HDF5_MAX_RANK] = {1, 1, 1};
+    const hid_t layout = H5Dget_create_plist(dataset);
+    const bool has_chunks = H5Pget_layout(layout) == H5D_CHUNKED;
+    const herr_t result = has_chunks ? H5Pget_chunk(layout, rank, chunk) : 0;
+    (void)H5Pclose(layout);
+    dem_status status = result < 0 ? DEM_ERROR_IO : DEM_OK;
+    /* A slab is as many rows as a chunk has, and all columns. */
+    for (const hsize_t rows = extent[0]; status == DEM_OK && start[0] < rows; start[0] += chunk[0]) {
+        extent[0] = rows - start[0] < chunk[0] ? rows - start[0] : chunk[0];
+        status = has_chunks ? read_chunks(dataset, type, start, extent, rank)
+                            : read_slab(dataset, type, start, extent, rank);
+    }
+    return status;
 }
 
 /* The same of a dataset with a single item, such as a text. */
