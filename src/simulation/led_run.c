@@ -226,7 +226,8 @@ static void take_part(led_run *l, const rank_call *o)
         (void)gather(l);
         break;
     case RANK_CALL_PEAKS_TAKE:
-    case RANK_CALL_PEAKS_BRING:
+    case RANK_CALL_PEAKS_NODES:
+    case RANK_CALL_PEAKS_SPRINGS:
     case RANK_CALL_PEAKS_LOOK:
         (void)shared_peaks_answer(&l->peaks, l->part, o);
         break;
@@ -358,6 +359,7 @@ static dem_status send_peaks(led_run *l, dem_peaks *peaks)
     peaks->away = l->whole;
     if (!is_known) TRY(pass_peaks(l, RANK_CALL_PEAKS_TAKE, k));
     peaks_give_up(peaks);
+    peaks->are_away = true;
     return DEM_OK;
 }
 
@@ -368,10 +370,16 @@ dem_status led_run_look_for_peaks(const dem_simulation *whole, dem_peaks *peaks)
     return pass_peaks(l, RANK_CALL_PEAKS_LOOK, shared_peaks_number(&l->peaks, peaks));
 }
 
-dem_status led_run_bring_peaks(const dem_simulation *whole, dem_peaks *peaks)
+dem_status led_run_bring_node_peaks(const dem_simulation *whole, dem_peaks *peaks)
 {
     led_run *l = whole->leads;
-    return pass_peaks(l, RANK_CALL_PEAKS_BRING, shared_peaks_number(&l->peaks, peaks));
+    return pass_peaks(l, RANK_CALL_PEAKS_NODES, shared_peaks_number(&l->peaks, peaks));
+}
+
+dem_status led_run_bring_spring_peaks(const dem_simulation *whole, dem_peaks *peaks)
+{
+    led_run *l = whole->leads;
+    return pass_peaks(l, RANK_CALL_PEAKS_SPRINGS, shared_peaks_number(&l->peaks, peaks));
 }
 
 void led_run_forget_peaks(const dem_simulation *whole, const dem_peaks *peaks)
@@ -380,12 +388,18 @@ void led_run_forget_peaks(const dem_simulation *whole, const dem_peaks *peaks)
     s->whole[shared_peaks_number(s, peaks)] = NULL;
 }
 
+/* Those of nodes and of springs. */
 static dem_status bring_peaks(led_run *l, int k)
 {
     dem_peaks *whole = l->peaks.whole[k];
-    if (whole == NULL || whole->nodes != NULL) return DEM_OK;
-    const dem_status status = pass_peaks(l, RANK_CALL_PEAKS_BRING, k);
-    if (status != DEM_OK) peaks_give_up(whole);
+    if (whole == NULL || !whole->are_away) return DEM_OK;
+    peaks_give_up(whole);
+    dem_status status = pass_peaks(l, RANK_CALL_PEAKS_NODES, k);
+    if (status == DEM_OK) status = pass_peaks(l, RANK_CALL_PEAKS_SPRINGS, k);
+    if (status == DEM_OK)
+        whole->are_away = false;
+    else
+        peaks_give_up(whole);
     return status;
 }
 

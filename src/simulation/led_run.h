@@ -48,8 +48,10 @@ void led_run_gather(dem_simulation *whole);
 /** All parts look for larger peaks; from then on they have them, and the program's are given up. */
 dem_status led_run_look_for_peaks(const dem_simulation *whole, dem_peaks *peaks);
 
-/** Brings the peaks that the parts have back, for as long as none looks; and tells them that nobody wants theirs. */
-dem_status led_run_bring_peaks(const dem_simulation *whole, dem_peaks *peaks);
+/** Brings copies of the peaks that the parts have, to where there is room for them, or room is made; and tells them
+ *  that nobody wants theirs. */
+dem_status led_run_bring_node_peaks(const dem_simulation *whole, dem_peaks *peaks);
+dem_status led_run_bring_spring_peaks(const dem_simulation *whole, dem_peaks *peaks);
 void led_run_forget_peaks(const dem_simulation *whole, const dem_peaks *peaks);
 
 /** Looks for overlaps in the whole, in the midst of an advance of all parts. */

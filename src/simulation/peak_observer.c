@@ -12,19 +12,23 @@
 #include "base/struct_size.h"
 #include "simulation/led_run.h"
 
-/* From the ranks that have them. */
-static dem_status bring(dem_peaks *p)
+/* Copies from the ranks that have them, as the program asks for them, which knows nothing of ranks: of nodes, in the
+ * place of those of springs, or the other way round. */
+static const dem_peaks *with_nodes(const dem_peaks *peaks)
 {
-    if (p->nodes != NULL) return DEM_OK;
-    const dem_status status = led_run_bring_peaks(p->away, p);
-    if (status != DEM_OK) peaks_give_up(p);
-    return status;
+    dem_peaks *p = (dem_peaks *)(uintptr_t)peaks;
+    if (!p->are_away || p->nodes != NULL) return p;
+    peaks_give_up(p);
+    if (led_run_bring_node_peaks(p->away, p) != DEM_OK) peaks_give_up(p);
+    return p;
 }
 
-/* As the program asks for them, which knows nothing of ranks. */
-static const dem_peaks *brought(const dem_peaks *p)
+static const dem_peaks *with_springs(const dem_peaks *peaks)
 {
-    (void)bring((dem_peaks *)p);
+    dem_peaks *p = (dem_peaks *)(uintptr_t)peaks;
+    if (!p->are_away || p->springs != NULL) return p;
+    peaks_give_up(p);
+    if (led_run_bring_spring_peaks(p->away, p) != DEM_OK) peaks_give_up(p);
     return p;
 }
 
@@ -76,9 +80,11 @@ static dem_status bring_into(dem_peaks *p, dem_checkpoint *checkpoint)
     void *of_nodes, *of_springs;
     TRY(checkpoint_entries_make(checkpoint, entry_nodes, (size_t)p->n_nodes * sizeof *p->nodes, &of_nodes));
     TRY(checkpoint_entries_make(checkpoint, entry_springs, (size_t)p->n_springs * sizeof *p->springs, &of_springs));
+    peaks_give_up(p);
     p->nodes = of_nodes;
     p->springs = of_springs;
-    const dem_status status = led_run_bring_peaks(p->away, p);
+    dem_status status = led_run_bring_node_peaks(p->away, p);
+    if (status == DEM_OK) status = led_run_bring_spring_peaks(p->away, p);
     p->nodes = NULL;
     p->springs = NULL;
     return status;
@@ -91,7 +97,7 @@ static dem_status remember(void *context, const dem_simulation *simulation, dem_
     dem_peaks *p = context;
     (void)simulation;
     TRY(checkpoint_entries_pass(&way, entry_every, &p->every, sizeof p->every));
-    return p->nodes != NULL ? pass(p, &way) : bring_into(p, checkpoint);
+    return p->are_away ? bring_into(p, checkpoint) : pass(p, &way);
 }
 
 /* ---- the largest ---- */
@@ -136,7 +142,8 @@ dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index e
     dem_peaks *p = calloc(1, sizeof *p);
     CHECK_MEMORY(p);
     *p = (dem_peaks){.n_nodes = size.n_nodes, .n_springs = size.n_springs, .every = every, .is_new = true};
-    const dem_status status = peaks_make_room(p);
+    dem_status status = peaks_make_node_room(p);
+    if (status == DEM_OK) status = peaks_make_spring_room(p);
     if (status == DEM_OK)
         *out = p;
     else
@@ -179,20 +186,20 @@ dem_status dem_peaks_observer(dem_peaks *peaks, dem_observer *out)
 
 const dem_node_peak *dem_peaks_nodes(const dem_peaks *peaks)
 {
-    return brought(peaks)->nodes;
+    return with_nodes(peaks)->nodes;
 }
 
 const dem_spring_peak *dem_peaks_springs(const dem_peaks *peaks)
 {
-    return brought(peaks)->springs;
+    return with_springs(peaks)->springs;
 }
 
 dem_index dem_peaks_most_stressed_nodes(const dem_peaks *peaks, dem_index n, dem_index *nodes)
 {
-    return rank(brought(peaks), node_size, peaks->n_nodes, n, nodes);
+    return rank(with_nodes(peaks), node_size, peaks->n_nodes, n, nodes);
 }
 
 dem_index dem_peaks_most_strained_springs(const dem_peaks *peaks, dem_index n, dem_index *list)
 {
-    return rank(brought(peaks), spring_size, peaks->n_springs, n, list);
+    return rank(with_springs(peaks), spring_size, peaks->n_springs, n, list);
 }

@@ -56,12 +56,17 @@ dem_status peaks_look(dem_peaks *p, const dem_simulation *simulation)
 
 /* ---- entries ---- */
 
-dem_status peaks_make_room(dem_peaks *p)
+dem_status peaks_make_node_room(dem_peaks *p)
 {
     if (p->nodes == NULL) p->nodes = calloc((size_t)p->n_nodes, sizeof *p->nodes);
+    CHECK(p->nodes != NULL, DEM_ERROR_MEMORY, "out of memory for the peaks of %lld nodes", (long long)p->n_nodes);
+    return DEM_OK;
+}
+
+dem_status peaks_make_spring_room(dem_peaks *p)
+{
     if (p->springs == NULL) p->springs = calloc((size_t)p->n_springs + 1, sizeof *p->springs);
-    CHECK(p->nodes != NULL && p->springs != NULL, DEM_ERROR_MEMORY, "out of memory for the peaks of %lld nodes",
-          (long long)p->n_nodes);
+    CHECK(p->springs != NULL, DEM_ERROR_MEMORY, "out of memory for the peaks of %lld springs", (long long)p->n_springs);
     return DEM_OK;
 }
 

@@ -11,15 +11,17 @@ struct dem_peaks {
     dem_index n_nodes, n_springs;
     dem_index every;      /* accepted steps from look to look */
     bool is_new;          /* no node and no spring has a peak yet */
-    dem_node_peak *nodes; /* [n_nodes] NULL, as the next one: ranks alone have them */
+    bool are_away;        /* ranks have them; then there are copies here, of nodes or of springs, or NULL */
+    dem_node_peak *nodes; /* [n_nodes] */
     dem_spring_peak *springs;
     double *stress;             /* [n_nodes][3] scratch, made by the first look */
     double *strain;             /* [n_springs] likewise */
     const dem_simulation *away; /* the simulation that leads the run whose ranks have them; NULL: none do */
 };
 
-/** Makes room for the entries, which are 0, unless they are there.  \return DEM_ERROR_MEMORY */
-dem_status peaks_make_room(dem_peaks *p);
+/** Make room for the entries, which are 0, unless they are there.  \return DEM_ERROR_MEMORY */
+dem_status peaks_make_node_room(dem_peaks *p);
+dem_status peaks_make_spring_room(dem_peaks *p);
 
 /** Frees the entries, which others have: views of them end. */
 void peaks_give_up(dem_peaks *p);

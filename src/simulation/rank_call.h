@@ -23,14 +23,15 @@ typedef enum rank_call_kind {
     RANK_CALL_BOUNDARY,
     RANK_CALL_STRESS_AT,
     RANK_CALL_FORCE_AT,
-    RANK_CALL_FIELD,       /* a shared_field_kind as `number` */
-    RANK_CALL_PEAKS_TAKE,  /* of this number, from rank 0 (simulation/shared_peaks.h); */
-    RANK_CALL_PEAKS_BRING, /* the other way round; */
-    RANK_CALL_PEAKS_LOOK,  /* or look for larger ones */
-    RANK_CALL_SHARES,      /* of the model (simulation/rank_shares.h) */
-    RANK_CALL_PACK,        /* so many sections of a file */
-    RANK_CALL_DROP,        /* the simulation */
-    RANK_CALL_END          /* no more calls; `number` is for the program */
+    RANK_CALL_FIELD,         /* a shared_field_kind as `number` */
+    RANK_CALL_PEAKS_TAKE,    /* of this number, from rank 0 (simulation/shared_peaks.h); */
+    RANK_CALL_PEAKS_NODES,   /* the other way round, those of nodes */
+    RANK_CALL_PEAKS_SPRINGS, /* or of springs; */
+    RANK_CALL_PEAKS_LOOK,    /* or look for larger ones */
+    RANK_CALL_SHARES,        /* of the model (simulation/rank_shares.h) */
+    RANK_CALL_PACK,          /* so many sections of a file */
+    RANK_CALL_DROP,          /* the simulation */
+    RANK_CALL_END            /* no more calls; `number` is for the program */
 } rank_call_kind;
 
 /* Bits: what observers want beside steps and frames. */

@@ -24,17 +24,20 @@ static dem_status take(const dem_model *m, const dem_peaks *whole, dem_peaks *pa
 }
 
 /* The other way round, to where there is room for them, or room is made. */
-static dem_status bring(const dem_model *m, dem_peaks *whole, const dem_peaks *part)
+static dem_status bring_nodes(const dem_model *m, dem_peaks *whole, const dem_peaks *part)
 {
-    const gather_items of_nodes = gather_nodes(m->domain), of_springs = gather_springs(m->domain, &m->lattice);
+    const gather_items of_nodes = gather_nodes(m->domain);
     const bool is_root = whole != NULL;
-    dem_status status = reduce_status(m->ranks, is_root ? peaks_make_room(whole) : DEM_OK, 0.0);
-    if (status == DEM_OK)
-        status = gather_rows(m->ranks, &of_nodes, sizeof *part->nodes, part->nodes, is_root ? whole->nodes : NULL);
-    if (status == DEM_OK)
-        status =
-            gather_rows(m->ranks, &of_springs, sizeof *part->springs, part->springs, is_root ? whole->springs : NULL);
-    return status;
+    TRY(reduce_status(m->ranks, is_root ? peaks_make_node_room(whole) : DEM_OK, 0.0));
+    return gather_rows(m->ranks, &of_nodes, sizeof *part->nodes, part->nodes, is_root ? whole->nodes : NULL);
+}
+
+static dem_status bring_springs(const dem_model *m, dem_peaks *whole, const dem_peaks *part)
+{
+    const gather_items of_springs = gather_springs(m->domain, &m->lattice);
+    const bool is_root = whole != NULL;
+    TRY(reduce_status(m->ranks, is_root ? peaks_make_spring_room(whole) : DEM_OK, 0.0));
+    return gather_rows(m->ranks, &of_springs, sizeof *part->springs, part->springs, is_root ? whole->springs : NULL);
 }
 
 /* All ranks have peaks afterwards, or none. */
@@ -58,8 +61,10 @@ dem_status shared_peaks_answer(shared_peaks *s, const dem_simulation *part, cons
     switch (what->kind) {
     case RANK_CALL_PEAKS_TAKE:
         return begin(s, m, (int)what->number);
-    case RANK_CALL_PEAKS_BRING:
-        return bring(m, whole, *own);
+    case RANK_CALL_PEAKS_NODES:
+        return bring_nodes(m, whole, *own);
+    case RANK_CALL_PEAKS_SPRINGS:
+        return bring_springs(m, whole, *own);
     default:
         return reduce_status(m->ranks, peaks_look(*own, part), 0.0);
     }
