@@ -407,12 +407,13 @@ static bool ends(job *j)
     return keeps(j, &needed);
 }
 
-/* The model has a copy of the deck's lattice, which is not needed any more. */
+/* The model looks at the deck's lattice as long as there is one, but has velocities of its own. */
 static dem_status build(job *j)
 {
     deck *d = &j->deck;
-    dem_status status = dem_model_create(&j->model, &d->lattice, d->obstacles, d->n_obstacles);
-    dem_lattice_free(&d->lattice);
+    dem_status status = dem_model_create_borrowing(&j->model, &d->lattice, d->obstacles, d->n_obstacles);
+    free(d->lattice.velocity);
+    d->lattice.velocity = NULL;
     if (status != DEM_OK) return status;
     j->options = d->options;
     if (d->residual > 0.0 && j->options.mass_damping == 0.0) j->options.mass_damping = relaxation_damping(j->model);

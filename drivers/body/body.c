@@ -356,8 +356,8 @@ static dem_status face(builder *b)
     const bool file = has_shape(b->body, "file"), cleared = is_given(b->body, "clearance");
     const body_scene *scene = b->scene;
     dem_model *model = NULL;
-    dem_status status =
-        report(b, dem_model_create(&model, &b->lattice, scene->obstacles, scene->n_obstacles), file ? "file" : "shape");
+    dem_status status = report(b, dem_model_create_borrowing(&model, &b->lattice, scene->obstacles, scene->n_obstacles),
+                               file ? "file" : "shape");
     if (status == DEM_OK && cleared) status = clear(b, model);
     if (status == DEM_OK && cleared) status = check_place(b, "clearance");
     if (status == DEM_OK) measure_start(b, model);

@@ -106,6 +106,13 @@ typedef struct dem_model dem_model;
 DEM_API dem_status dem_model_create(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
                                     dem_index n_obstacles);
 
+/** The same without a copy of the lattice, whose arrays have to outlive the model and to stay as they are, but for its
+ *  velocities, which are copied. Before there is a simulation of the model its nodes may be moved all together: what
+ *  the model says of obstacles does not depend on them.
+ *  \return as dem_model_create() */
+DEM_API dem_status dem_model_create_borrowing(dem_model **out, const dem_lattice *lattice,
+                                              const dem_obstacle *obstacles, dem_index n_obstacles);
+
 /** Accepts NULL. Destroy its simulations first. */
 DEM_API void dem_model_destroy(dem_model *model);
 

@@ -1285,6 +1285,13 @@ FUNCTIONS: dict[str, tuple[Any, list[Any], str]] = {  # result, arguments, text
         """dem_model_create(out, lattice, obstacles, n_obstacles)
         Validates, copies and compiles. Lattice and obstacles may be freed afterwards. Node order is kept.
         Returns DEM_ERROR_MODEL with the first offending node, spring, triangle or segment named"""),
+    "dem_model_create_borrowing": (c_int, [POINTER(POINTER(dem_model)), POINTER(dem_lattice), POINTER(dem_obstacle),
+                                           c_int64],
+        """dem_model_create_borrowing(out, lattice, obstacles, n_obstacles)
+        The same without a copy of the lattice, whose arrays have to outlive the model and to stay as they are, but
+        for its velocities, which are copied. Before there is a simulation of the model its nodes may be moved all
+        together: what the model says of obstacles does not depend on them.
+        Returns as dem_model_create()"""),
     "dem_model_destroy": (None, [POINTER(dem_model)],
         """dem_model_destroy(model)
         Accepts NULL. Destroy its simulations first."""),

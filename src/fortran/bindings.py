@@ -28,7 +28,7 @@ MAY_BE_NULL = {
     "dem_lattice_weibull.triangle_factor", "dem_lattice_weibull.spring_factor", "dem_lattice_weaken.strength_factor",
     "dem_lattice_weaken.energy_factor", "dem_lattice_weaken.stretch_factor",
     "dem_lattice_edge_shares.direction", "dem_shape_lattice.report", "dem_lattice_inside.triangles",
-    "dem_lattice_inside.springs", "dem_lattice_crossed.triangles", "dem_lattice_crossed.springs", "dem_model_create.obstacles", "dem_simulation_set_motion.x",
+    "dem_lattice_inside.springs", "dem_lattice_crossed.triangles", "dem_lattice_crossed.springs", "dem_model_create.obstacles", "dem_model_create_borrowing.obstacles", "dem_simulation_set_motion.x",
     "dem_simulation_set_motion.v", "dem_obstacle_moves.by", "dem_simulation_break.triangle", "dem_simulation_break.spring",
     "dem_simulation_broken.triangle", "dem_simulation_broken.spring", "dem_simulation_damage.triangle",
     "dem_simulation_damage.node"}

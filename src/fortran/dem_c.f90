@@ -461,6 +461,14 @@ module dem_c
       integer(dem_index), value :: n_obstacles
     end function
 
+    integer(dem_status) function dem_model_create_borrowing(out, lattice, obstacles, n_obstacles) bind(c)
+      import
+      type(c_ptr), intent(out) :: out
+      type(dem_lattice), intent(in) :: lattice
+      type(dem_obstacle), intent(in), optional :: obstacles(*)
+      integer(dem_index), value :: n_obstacles
+    end function
+
     subroutine dem_model_destroy(model) bind(c)
       import
       type(c_ptr), value :: model

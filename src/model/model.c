@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The model: validates a lattice and obstacles, copies them, and compiles what a run reads often: springs and triangles
- * in rows, the layout of the sweep, the surface, obstacles. It is immutable afterwards, but for what is made when it is
- * first asked for (base/on_demand.h), and may be shared by simulations and threads. The first fault is reported with
- * node, place and numbers. How each part is compiled is in its own file; what changes during a run belongs to the
- * simulation (simulation/). */
+/* The model: validates a lattice and obstacles, copies them, unless it borrows the lattice, and compiles what a run
+ * reads often: springs and triangles in rows, the layout of the sweep, the surface, obstacles. It is immutable
+ * afterwards, but for what is made when it is first asked for (base/on_demand.h), and may be shared by simulations and
+ * threads. The first fault is reported with node, place and numbers. How each part is compiled is in its own file; what
+ * changes during a run belongs to the simulation (simulation/). */
 #include "model/model.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/reduce.h"
 #include "base/status.h"
 #include "base/struct_size.h"
 #include "lattice/lattice.h"
+#include "lattice/lattice_arrays.h"
 #include "lattice/mesh_edges.h"
 #include "model/model_rules.h"
 #include "obstacle/obstacle_input.h"
@@ -74,13 +76,41 @@ static dem_status compile_nodes(dem_model *m)
     return DEM_OK;
 }
 
-/* Appending to an empty lattice copies the caller's arrays. */
-static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
+/* All arrays but the velocities, which may have to be changed; what no item is of is as if it were missing. */
+static dem_status borrow(dem_model *m, const dem_lattice *lattice)
 {
-    TRY(model_rules_check(lattice, lattice->n_nodes));
+    m->borrowed = *lattice;
+    m->borrowed.velocity = NULL;
+    for (int k = 0; k < LATTICE_ARRAYS; k++)
+        if (lattice_count(lattice, lattice_arrays[k].of) == 0)
+            lattice_array_put(&m->borrowed, &lattice_arrays[k], NULL);
+    m->lattice = m->borrowed;
+    if (lattice->velocity == NULL) return DEM_OK;
+    const size_t size = 2 * (size_t)lattice->n_nodes * sizeof *lattice->velocity;
+    CHECK_MEMORY(m->lattice.velocity = malloc(size));
+    memcpy(m->lattice.velocity, lattice->velocity, size);
+    return DEM_OK;
+}
+
+/* Appending to an empty lattice copies the caller's arrays. */
+static dem_status take_lattice(dem_model *m, const dem_lattice *lattice, bool borrows)
+{
     m->lattice = dem_lattice_empty();
-    TRY(dem_lattice_append(&m->lattice, lattice));
-    TRY(fill_defaults(&m->lattice));
+    TRY(borrows ? borrow(m, lattice) : dem_lattice_append(&m->lattice, lattice));
+    return fill_defaults(&m->lattice);
+}
+
+static void free_lattice(dem_model *m)
+{
+    dem_lattice *l = &m->lattice;
+    if (l->position == l->x) l->position = NULL; /* is freed once */
+    for (int k = 0; k < LATTICE_ARRAYS; k++)
+        if (lattice_array_of(&m->borrowed, &lattice_arrays[k]) != NULL) lattice_array_put(l, &lattice_arrays[k], NULL);
+    dem_lattice_free(l);
+}
+
+static dem_status compile_parts(dem_model *m, const dem_obstacle *list, dem_index n)
+{
     TRY(rigid_bodies_compile(&m->rigid, &m->lattice));
     TRY(model_rows_compile(m));
     TRY(surface_compile(&m->surface, &m->lattice, SURFACE_TOUCHING));
@@ -90,21 +120,31 @@ static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const 
 }
 
 /* A failure of one part is reduced before the sums, at which all processes would meet (base/reduce.h). */
-static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
+static dem_status compile(dem_model *m, const dem_obstacle *list, dem_index n)
 {
-    TRY(reduce_status(m->ranks, compile_parts(m, lattice, list, n), 0.0));
+    TRY(reduce_status(m->ranks, compile_parts(m, list, n), 0.0));
     TRY(model_find_scales(m, NULL));
     return reduce_status(m->ranks, check_bodies(m), 0.0);
 }
 
 /* ---- public ---- */
 
-static dem_status create(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles, dem_index n)
+/* What a model is made of. */
+typedef struct source {
+    dem_lattice lattice;
+    bool is_lent; /* whether its arrays are not copied */
+    const dem_obstacle *obstacles;
+    dem_index n_obstacles;
+} source;
+
+static dem_status create(dem_model **out, const source *from)
 {
+    TRY(model_rules_check(&from->lattice, from->lattice.n_nodes));
     dem_model *model = calloc(1, sizeof *model);
     CHECK_MEMORY(model);
     model->ranks = &ranks_alone;
-    const dem_status status = compile(model, lattice, obstacles, n);
+    dem_status status = take_lattice(model, &from->lattice, from->is_lent);
+    if (status == DEM_OK) status = compile(model, from->obstacles, from->n_obstacles);
     if (status == DEM_OK)
         *out = model;
     else
@@ -112,27 +152,39 @@ static dem_status create(dem_model **out, const dem_lattice *lattice, const dem_
     return status;
 }
 
-/* The caller's structs may be of another version of the library: `own` and `list` are copies in this one's layout. */
+/* The caller's structs may be of another version of the library: those of the source are copies in this one's
+ * layout. */
+static dem_status read_and_create(dem_model **out, const dem_lattice *lattice, source from)
+{
+    CHECK(out != NULL && lattice != NULL, DEM_ERROR_ARGUMENT, "dem_model_create: %s is NULL", out ? "lattice" : "out");
+    CHECK(from.n_obstacles >= 0 && (from.n_obstacles == 0 || from.obstacles != NULL), DEM_ERROR_ARGUMENT,
+          "dem_model_create: %lld obstacles, obstacles is %s", (long long)from.n_obstacles,
+          from.obstacles ? "given" : "NULL");
+    void *list;
+    TRY(lattice_read(&from.lattice, lattice));
+    TRY(obstacle_input_read_all(&list, from.obstacles, from.n_obstacles));
+    from.obstacles = list;
+    const dem_status status = create(out, &from);
+    free(list);
+    return status;
+}
+
 dem_status dem_model_create(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
                             dem_index n_obstacles)
 {
-    CHECK(out != NULL && lattice != NULL, DEM_ERROR_ARGUMENT, "dem_model_create: %s is NULL", out ? "lattice" : "out");
-    CHECK(n_obstacles >= 0 && (n_obstacles == 0 || obstacles != NULL), DEM_ERROR_ARGUMENT,
-          "dem_model_create: %lld obstacles, obstacles is %s", (long long)n_obstacles, obstacles ? "given" : "NULL");
-    dem_lattice own;
-    void *list;
-    TRY(lattice_read(&own, lattice));
-    TRY(obstacle_input_read_all(&list, obstacles, n_obstacles));
-    const dem_status status = create(out, &own, list, n_obstacles);
-    free(list);
-    return status;
+    return read_and_create(out, lattice, (source){.obstacles = obstacles, .n_obstacles = n_obstacles});
+}
+
+dem_status dem_model_create_borrowing(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
+                                      dem_index n_obstacles)
+{
+    return read_and_create(out, lattice, (source){.obstacles = obstacles, .n_obstacles = n_obstacles, .is_lent = true});
 }
 
 void dem_model_destroy(dem_model *model)
 {
     if (model == NULL) return;
-    if (model->lattice.position == model->lattice.x) model->lattice.position = NULL; /* is freed once */
-    dem_lattice_free(&model->lattice);
+    free_lattice(model);
     model_rows_free(model);
     surface_free(&model->surface);
     stress_free(&model->stress);

@@ -21,7 +21,8 @@ struct dem_model {
     bool ends_ranks;           /* whether their table ends with the model */
     domain *domain;            /* of this one; NULL: all nodes are here */
     touching_bodies *touching; /* of the domain, if bodies may touch each other in it; else NULL */
-    dem_lattice lattice;       /* own copy; flags, body, position and velocity always filled */
+    dem_lattice lattice;       /* flags, body, position and velocity always filled; */
+    dem_lattice borrowed;      /* those of its arrays that are the caller's; NULL: they are of the model */
     bool lacks_rows;           /* whether what is in rows here has been given up */
     springs springs;
     csr_view *csr; /* of the springs, for programs */

@@ -425,6 +425,37 @@ TEST(the_model_is_independent_of_what_it_was_made_from)
     }
 }
 
+/* The square has a fixed node, whose velocity is none; where the lattice has no array the model has its own. */
+TEST(a_model_may_borrow_its_lattice)
+{
+    square s;
+    make_square(&s);
+    s.lattice.velocity = s.velocity;
+    s.lattice.flags = s.flags;
+    CLEANUP(free_model) dem_model *model = NULL, *copying = NULL;
+    assert_ok(dem_model_create(&copying, &s.lattice, NULL, 0));
+    assert_ok(dem_model_create_borrowing(&model, &s.lattice, NULL, 0));
+    const dem_lattice *l = dem_model_lattice(model), *other = dem_model_lattice(copying);
+    assert_ptr_equal(l->x, s.x);
+    assert_ptr_equal(l->position, s.x);
+    assert_ptr_equal(l->ends, s.ends);
+    assert_ptr_equal(l->triangles, s.triangles);
+    assert_ptr_equal(l->flags, s.flags);
+    assert_memory_equal(l->velocity, other->velocity, sizeof s.velocity);
+    assert_memory_equal(l->body, other->body, sizeof s.body);
+    assert_close(l->velocity[2], 0.0, 0.0);
+    assert_memory_equal(s.velocity, plain.velocity, sizeof s.velocity);
+    assert_close(dem_model_omega_max(model), dem_model_omega_max(copying), 0.0);
+    dem_model_destroy(model);
+    model = NULL;
+    assert_memory_equal(s.x, plain.x, sizeof s.x);
+    s.lattice.n_springs = 0; /* arrays of nothing are as missing ones */
+    s.lattice.n_nodes = 1, s.lattice.n_triangles = 0;
+    assert_ok(dem_model_create_borrowing(&model, &s.lattice, NULL, 0));
+    assert_null(dem_model_lattice(model)->ends);
+    assert_null(dem_model_lattice(model)->guard);
+}
+
 TEST(sizes_and_csr_tell_what_is_there)
 {
     const double points[6] = {-5.0, 0.0, 0.0, 0.0, 5.0, 0.0};
