@@ -68,11 +68,17 @@ dem_status dem_checkpoint_create(dem_checkpoint **out)
     return DEM_OK;
 }
 
+void checkpoint_entries_free(dem_checkpoint *checkpoint)
+{
+    for (dem_index k = 0; k < checkpoint->n; k++) free(checkpoint->entries[k].data);
+    free(checkpoint->entries);
+    *checkpoint = (dem_checkpoint){0};
+}
+
 void dem_checkpoint_destroy(dem_checkpoint *checkpoint)
 {
     if (checkpoint == NULL) return;
-    for (dem_index k = 0; k < checkpoint->n; k++) free(checkpoint->entries[k].data);
-    free(checkpoint->entries);
+    checkpoint_entries_free(checkpoint);
     free(checkpoint);
 }
 

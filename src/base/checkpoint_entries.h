@@ -14,6 +14,9 @@ dem_status checkpoint_entries_copy(dem_checkpoint *into, const dem_checkpoint *f
  *  \return DEM_ERROR_MEMORY, with some of them moved, which are empty in the first */
 dem_status checkpoint_entries_move(dem_checkpoint *into, dem_checkpoint *from);
 
+/** Frees all entries. */
+void checkpoint_entries_free(dem_checkpoint *checkpoint);
+
 /** Makes an entry of so many bytes, or gives that of this name as many, for the caller to write: no copy of them is
  *  needed elsewhere.
  *  \param name       1 to 31 characters

@@ -52,6 +52,7 @@ static dem_status create_part(led_run *l, const shared_problem *p, bool resumes,
         TRY(dem_simulation_resume(&l->part, l->model, &p->options, checkpoint));
     else
         TRY(dem_simulation_create(&l->part, l->model, &p->options));
+    checkpoint_entries_free(l->part->checkpoint); /* the whole has it */
     l->part->is_led = true;
     l->part->whole = l->whole;
     return DEM_OK;
