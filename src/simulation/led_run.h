@@ -9,7 +9,8 @@
 #include "simulation/private.h"
 
 /** Makes a simulation that has not been advanced the leader of one that all ranks have a part of. On rank 0, while the
- *  others are in dem_private_follow(). No program may call this.
+ *  others are in dem_private_follow(). No program may call this. While it leads there is no other simulation of its
+ *  model, which gives up what that would be advanced with (model_rows_give_up()).
  *  \param r           outlives the simulation
  *  \param options     with which the simulation was created; outlive it, with what they refer to
  *  \param checkpoint  from which it was resumed; NULL: it was not
