@@ -44,6 +44,15 @@ static exit_code refuse_copies(const command *c, const launcher *l, const char *
     return EXIT_USAGE;
 }
 
+static bool has_writers(const command *c, long ranks)
+{
+    if (c->writers <= ranks) return true;
+    (void)fprintf(c->host->err,
+                  "dem_batch: error: %ld writers ('--writers') are more than the %ld rank%s that there %s\n",
+                  c->writers, ranks, ranks == 1 ? "" : "s", ranks == 1 ? "is" : "are");
+    return false;
+}
+
 /* Rank 0 does what is asked for, and the others help. */
 static exit_code do_as_ranks(const command *c, const launcher *l, batch_pool pool)
 {
@@ -62,7 +71,7 @@ static exit_code do_as_ranks(const command *c, const launcher *l, batch_pool poo
         return refuse_copies(c, l, why);
     }
     own.ranks = &group;
-    if (group.rank == 0) code = do_cases(&own, pool);
+    if (group.rank == 0) code = has_writers(c, group.size) ? do_cases(&own, pool) : EXIT_USAGE;
     return (exit_code)rank_group_end(&group, (int)code);
 }
 
@@ -70,7 +79,8 @@ static exit_code do_all(const command *c, batch_pool pool)
 {
     const launcher l = launcher_find();
     const bool is_alone = c->serial || (l.processes == 1 && !c->mpi);
-    return is_alone ? do_cases(c, pool) : do_as_ranks(c, &l, pool);
+    if (!is_alone) return do_as_ranks(c, &l, pool);
+    return has_writers(c, 1) ? do_cases(c, pool) : EXIT_USAGE;
 }
 
 exit_code batch_do(const command *c, batch_pool pool)

@@ -33,6 +33,7 @@ static const char usage[] =
     "  --checkpoint-interval SECONDS  on the wall, between checkpoints (default: 600; the first after 30)\n"
     "  --resume-anyway        go on from a checkpoint of another version: not to the same bits\n"
     "  --mpi                  run as ranks of MPI; under mpirun or srun with several processes this is so anyway\n"
+    "  --writers W            frames go to W files beside each file of the run, by W ranks; at most as many as ranks\n"
     "  --serial               run under mpirun or srun: each process by itself, with an output of its own\n"
     "signals: SIGUSR1 writes a checkpoint; SIGTERM, SIGINT, SIGXCPU and SIGUSR2 end as --max-wall does\n"
     "exit codes: 0 done, 2 usage, 3 deck invalid, 4 numerics failed, 5 input or output, also over --max-disk,\n"
@@ -96,6 +97,15 @@ static bool parse_jobs(command *c, const char *number)
     return true;
 }
 
+static bool parse_writers(command *c, const char *number)
+{
+    const size_t n = number == NULL ? 0 : strspn(number, "0123456789");
+    if (n == 0 || n > 6 || number[n] != '\0' || (c->writers = strtol(number, NULL, 10)) < 1)
+        return refuse(c, "'--writers' needs a number of ranks, from 1%s%s", number == NULL ? "" : ", got ",
+                      number == NULL ? "" : number);
+    return true;
+}
+
 static bool parse_seconds(const command *c, double *out, const char *option, const char *text)
 {
     char *end = NULL;
@@ -150,9 +160,11 @@ static bool parse_disk(command *c, const char *number)
 static const struct {
     const char *word;
     bool (*parse)(command *c, const char *value);
-} options[] = {{"--outdir", parse_outdir}, {"--index", parse_index},       {"--jobs", parse_jobs},
-               {"--set", parse_set},       {"--max-memory", parse_memory}, {"--max-steps", parse_steps},
-               {"--max-disk", parse_disk}, {"--max-wall", parse_max_wall}, {"--checkpoint-interval", parse_interval}};
+} options[] = {{"--outdir", parse_outdir},     {"--index", parse_index},
+               {"--writers", parse_writers},   {"--jobs", parse_jobs},
+               {"--set", parse_set},           {"--max-memory", parse_memory},
+               {"--max-steps", parse_steps},   {"--max-disk", parse_disk},
+               {"--max-wall", parse_max_wall}, {"--checkpoint-interval", parse_interval}};
 
 /* ---- words ---- */
 
@@ -208,6 +220,7 @@ exit_code command_parse(command *c, const host *h, int argc, char **argv)
                    .outdir = ".",
                    .most = limit_default(),
                    .jobs = 1,
+                   .writers = 1,
                    .checkpoint_interval = 600.0,
                    .max_wall = (double)INFINITY,
                    .wall_start = wall_clock()};

@@ -103,6 +103,7 @@ static dem_trajectory_options frames_of(const job *j)
     options.frame_interval = d->frame_interval;
     options.history_interval = d->history_interval;
     options.stays_open = true;
+    options.writers = (int)j->command->writers;
     options.double_precision = d->double_precision;
     options.deflate = d->deflate;
     options.events = d->events;
@@ -300,6 +301,17 @@ static result describe(const job *j)
                     .seconds = wall_clock() - j->wall_start};
 }
 
+static void list_stripes(const job *j)
+{
+    const long n = j->command->writers;
+    char end[64], first[OUTPUT_PATH], last[OUTPUT_PATH];
+    (void)snprintf(end, sizeof end, ".1of%ld.h5", n);
+    output_beside(first, j->path, end);
+    (void)snprintf(end, sizeof end, ".%ldof%ld.h5", n, n);
+    output_beside(last, j->path, end);
+    if (n > 1 && access(first, F_OK) == 0) (void)fprintf(j->log.out, ", %s to %s", first, last);
+}
+
 /* What a run that is done has left. */
 static void list_files(job *j)
 {
@@ -312,6 +324,7 @@ static void list_files(job *j)
         (void)fprintf(j->log.out, "%s %s", before, path);
         before = ",";
     }
+    list_stripes(j);
     (void)fprintf(j->log.out, "; wall time %.2f s\n", wall_clock() - j->wall_start);
 }
 

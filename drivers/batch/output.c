@@ -206,6 +206,31 @@ static const char *end_of(const char *file, const char *name)
     return is_segment(file + n) ? file + n : NULL;
 }
 
+/* .1of4.h5, or .00001.1of4.h5, a stripe of the whole or of a segment. */
+static bool is_stripe(const char *end)
+{
+    int whole = 0, segment = 0;
+    (void)sscanf(end, ".%*[0-9]of%*[0-9].h5%n", &whole);
+    (void)sscanf(end, ".%*[0-9].%*[0-9]of%*[0-9].h5%n", &segment);
+    return (whole > 0 && end[whole] == '\0') || (segment > 0 && end[segment] == '\0');
+}
+
+/* Other files have their rows under these names, which they would go on to look for. */
+static bool has_no_stripes(DIR *folder, const char *name, char reason[OUTPUT_REASON])
+{
+    const size_t n = strlen(name);
+    const struct dirent *entry;
+    rewinddir(folder);
+    while ((entry = readdir(folder)) != NULL) {
+        if (strncmp(entry->d_name, name, n) != 0 || !is_stripe(entry->d_name + n)) continue;
+        (void)snprintf(reason, OUTPUT_REASON,
+                       "the output cannot be renamed, as its files name %s: move all of them into another folder",
+                       entry->d_name);
+        return false;
+    }
+    return true;
+}
+
 static bool is_used(DIR *folder, const char *name)
 {
     const struct dirent *entry;
@@ -245,8 +270,9 @@ bool output_set_aside(const char *path, char reason[OUTPUT_REASON])
     }
     (void)snprintf(aside, sizeof aside, "%s.old", name);
     for (int k = 2; is_used(files, aside); k++) (void)snprintf(aside, sizeof aside, "%s.old%d", name, k);
-    (void)snprintf(reason, OUTPUT_REASON, "%s%s", aside, suffix);
-    const bool good = rename_all(files, name, aside, reason);
+    bool good = has_no_stripes(files, name, reason);
+    if (good) (void)snprintf(reason, OUTPUT_REASON, "%s%s", aside, suffix);
+    good = good && rename_all(files, name, aside, reason);
     (void)closedir(files);
     return good;
 }

@@ -44,7 +44,7 @@ void output_beside(char out[OUTPUT_PATH], const char *path, const char *end);
 output_state output_claim(const char *path, const deck *d, char reason[OUTPUT_REASON]);
 
 /** Renames every file of the output at `path` from NAME... to NAME.old..., or to NAME.old2... and so on if there are
- *  such files; `reason` says what failed, or the new name. */
+ *  such files; `reason` says what failed, or the new name. One with stripes is left alone. */
 bool output_set_aside(const char *path, char reason[OUTPUT_REASON]);
 
 #endif

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** dem/reader.h -- a trajectory read back: its frames, tables, lattice and obstacles. The file may be a finished one,
  *  the part of a run that goes on, or a segment. Types, ranks, extents, storage and links are checked as
- *  dem_lattice_read() does, before anything is allocated.
+ *  dem_lattice_read() does, before anything is allocated; arrays of frames may be in files beside it, NAME.1of4.h5 and
+ *  so on, which are checked likewise.
  *  The file is opened for each call and closed again, so that looking at a run does not disturb it; what was there when
  *  the trajectory was opened is what is seen. docs/output.md lists every dataset. */
 #ifndef DEM_READER_H

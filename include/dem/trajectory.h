@@ -63,6 +63,9 @@ typedef struct dem_trajectory_options {
     double history_interval; /**< s, at least, between rows of /history, which are accepted steps; default 0: each is */
     bool stays_open; /**< true: the part is whole in the file system after every frame, but stays open in this process,
                           where nothing else opens it then; takes half the time of a small frame; default false */
+    int writers; /**< more than 1: arrays of frames are in so many files beside each file, which other ranks write of a
+                      run that rank 0 leads (dem_batch --writers), of which there are as many at least; the simulation
+                      then outlives the trajectory. Default 0, as 1: they are in the file itself */
 } dem_trajectory_options;
 
 static inline dem_trajectory_options dem_trajectory_options_default(void)

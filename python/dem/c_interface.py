@@ -1045,11 +1045,14 @@ class dem_trajectory_options(SizedStructure):
     fragments: true: the table /fragments, of each frame; default false
     history_interval: s, at least, between rows of /history, which are accepted steps; default 0: each is
     stays_open: true: the part is whole in the file system after every frame, but stays open in this process, where
-        nothing else opens it then; takes half the time of a small frame; default false"""
+        nothing else opens it then; takes half the time of a small frame; default false
+    writers: more than 1: arrays of frames are in so many files beside each file, which other ranks write of a run that
+        rank 0 leads (dem_batch --writers), of which there are as many at least; the simulation then outlives the
+        trajectory. Default 0, as 1: they are in the file itself"""
     _fields_ = [("struct_size", c_size_t), ("frame_interval", c_double), ("double_precision", c_bool),
                 ("deflate", c_int), ("events", c_bool), ("fields", c_uint32), ("peaks", POINTER(dem_peaks)),
                 ("most_stressed", c_int64), ("n_probes", c_int64), ("probes", POINTER(dem_probe)), ("breaks", c_bool),
-                ("fragments", c_bool), ("history_interval", c_double), ("stays_open", c_bool)]
+                ("fragments", c_bool), ("history_interval", c_double), ("stays_open", c_bool), ("writers", c_int)]
 
 
 def dem_trajectory_options_default() -> dem_trajectory_options:

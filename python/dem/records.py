@@ -357,3 +357,4 @@ class TrajectoryKeywords(TypedDict, total=False):
     fragments: bool
     history_interval: float
     stays_open: bool
+    writers: int

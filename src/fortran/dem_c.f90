@@ -1499,6 +1499,7 @@ module dem_c
     logical(c_bool) :: breaks = .false., fragments = .false.
     real(c_double) :: history_interval = 0
     logical(c_bool) :: stays_open = .false.
+    integer(c_int) :: writers = 0
   end type
 
   interface

@@ -24,6 +24,7 @@
 #include "output/frames.h"
 
 #include "base/status.h"
+#include "base/team.h"
 #include "output/hdf5_attribute.h"
 #include "output/vtk_grid.h"
 
@@ -392,7 +393,16 @@ dem_status frames_create(const frames *f, const hdf5_file *file, const dem_latti
     return create_rows(f, file);
 }
 
-/* The scratch holds the largest array: six components of each node, or one number of each spring or triangle. */
+/* It holds the largest array: six components of each node, or one number of each spring or triangle. */
+static dem_status make_scratch(frames *f)
+{
+    const size_t n = (size_t)f->n_nodes, m = (size_t)f->n_springs, k = (size_t)f->n_triangles;
+    const size_t cells = m > k ? m : k;
+    f->scratch = calloc((6 * n > cells ? 6 * n : cells) + 1, sizeof *f->scratch);
+    CHECK(f->scratch != NULL, DEM_ERROR_MEMORY, "out of memory for the frames of %lld nodes", (long long)f->n_nodes);
+    return DEM_OK;
+}
+
 dem_status frames_init(frames *out, const dem_model *model, const dem_trajectory_options *options)
 {
     dem_model_size size = {.struct_size = sizeof size};
@@ -402,13 +412,13 @@ dem_status frames_init(frames *out, const dem_model *model, const dem_trajectory
                 .n_triangles = size.n_triangles,
                 .fields = options->fields,
                 .real = options->double_precision ? HDF5_F64 : HDF5_F32,
-                .deflate = options->deflate};
-    const size_t n = (size_t)size.n_nodes, m = (size_t)size.n_springs, k = (size_t)size.n_triangles;
-    const size_t cells = m > k ? m : k;
-    f.scratch = calloc(6 * n > cells ? 6 * n : cells, sizeof *f.scratch);
+                .deflate = options->deflate,
+                .n_stripes = options->writers > 1 ? options->writers : 0};
+    const size_t n = (size_t)size.n_nodes;
+    TRY(make_scratch(&f));
     f.stress = calloc(n, 3 * sizeof *f.stress);
     if (f.fields & DEM_FIELD_CONTACT) f.pressure = calloc(n, sizeof *f.pressure);
-    if (f.scratch == NULL || f.stress == NULL || (f.pressure == NULL && (f.fields & DEM_FIELD_CONTACT))) {
+    if (f.stress == NULL || (f.pressure == NULL && (f.fields & DEM_FIELD_CONTACT))) {
         frames_free(&f);
         return status_fail(DEM_ERROR_MEMORY, "out of memory for the frames of %lld nodes", (long long)size.n_nodes);
     }
@@ -432,21 +442,37 @@ static dem_status append_row(const frames *f, const hdf5_file *file, hdf5_rows r
     return hdf5_append(file, &rows, (hsize_t)f->n, 1, value);
 }
 
-/* Array by array, through the scratch. */
-static dem_status append_arrays(const frames *f, const hdf5_file *file, const view *v)
+static view view_of(const dem_simulation *simulation)
 {
+    view v = {simulation, dem_model_lattice(dem_simulation_model(simulation)), {.struct_size = sizeof v.state}};
+    return v;
+}
+
+dem_status frames_hand_out(const frames *f, const dem_simulation *simulation, frames_taker *take, void *context)
+{
+    view v = view_of(simulation);
+    TRY(dem_simulation_state(simulation, &v.state));
     /* Stresses are computed once for all arrays made of them. */
-    if (f->fields & ANY_STRESS) TRY(dem_simulation_stress(v->simulation, f->stress));
-    if (f->fields & DEM_FIELD_CONTACT) TRY(dem_simulation_contact_pressures(v->simulation, f->pressure));
+    if (f->fields & ANY_STRESS) TRY(dem_simulation_stress(simulation, f->stress));
+    if (f->fields & DEM_FIELD_CONTACT) TRY(dem_simulation_contact_pressures(simulation, f->pressure));
     for (int k = 0; k < N_ARRAYS; k++) {
-        const struct array *a = &arrays[k];
-        const hdf5_rows rows = array_rows(f, a);
-        const hsize_t count = (hsize_t)count_of(f, a->of);
-        if (!is_wanted(f, a)) continue;
-        TRY(a->fill(f, v));
-        TRY(hdf5_append(file, &rows, (hsize_t)f->n * count, count, f->scratch));
+        if (!is_wanted(f, &arrays[k])) continue;
+        TRY(arrays[k].fill(f, &v));
+        TRY(take(context, k, f->scratch));
     }
     return DEM_OK;
+}
+
+/* Frames that are being written. */
+typedef struct writing {
+    const frames *frames;
+    const hdf5_file *file;
+} writing;
+
+static dem_status append_array(void *context, int array, const void *data)
+{
+    const writing *w = context;
+    return frames_write_stripe(w->frames, w->file, array, (hsize_t)w->frames->n, data);
 }
 
 /* The ledger of this frame, in the order of `energies`. The number of contacts is a real, as VTK's field data are
@@ -484,6 +510,8 @@ static dem_status append_steps(const frames *f, const hdf5_file *file, double t)
 
 hsize_t frames_bytes(const frames *f)
 {
+    enum { OF_STRIPE = N_ARRAYS * 1024 }; /* where an array has its rows */
+    if (f->n_stripes > 0) return (hsize_t)f->n_stripes * OF_STRIPE;
     /* All arrays in double. */
     return 200 * (hsize_t)f->n_nodes + 18 * (hsize_t)f->n_springs + 2 * (hsize_t)f->n_triangles;
 }
@@ -492,9 +520,10 @@ hsize_t frames_bytes(const frames *f)
  * f->n once the file has been closed without an error. */
 dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simulation *simulation)
 {
-    view v = {simulation, dem_model_lattice(dem_simulation_model(simulation)), {.struct_size = sizeof v.state}};
+    view v = view_of(simulation);
+    writing w = {f, file};
     TRY(dem_simulation_state(simulation, &v.state));
-    TRY(append_arrays(f, file, &v));
+    if (f->n_stripes == 0) TRY(frames_hand_out(f, simulation, append_array, &w));
     TRY(append_energies(f, file, &v));
     TRY(append_steps(f, file, v.state.t));
     return write_count(f, file, f->n + 1);
@@ -549,37 +578,48 @@ static bool is_older(const hdf5_file *file, const struct array *a)
     return flags_of(a) != NULL && !hdf5_has(file, a->name);
 }
 
-/* What is hidden, from a file that has only what is broken. */
-static dem_status copy_hidden(const frames *f, const hdf5_file *from, const hdf5_file *to, const struct array *a,
-                              hdf5_span span)
+/* Frames from a file of the whole to one of all rows, or of a stripe. */
+typedef struct copying {
+    const frames *whole, *target; /* the same, or the target has a scratch of its own */
+    int stripe;                   /* < 0: all rows */
+    const hdf5_file *from, *to;
+} copying;
+
+/* Where stripe k begins. */
+static dem_index first_of(const frames *f, enum of of, int k)
 {
-    const hdf5_rows rows = array_rows(f, a);
-    const hsize_t n = (hsize_t)count_of(f, a->of);
-    hdf5_rows flags = rows;
-    flags.name = flags_of(a);
-    for (hsize_t k = 0; k < span.count; k++) {
-        TRY(hdf5_read(from, &flags, n * (span.first + k), n, f->scratch));
-        hide(f, (dem_index)n);
-        TRY(hdf5_append(to, &rows, n * (span.at + k), n, f->scratch));
-    }
-    return DEM_OK;
+    return team_share(count_of(f, of), f->n_stripes, k);
 }
 
-static dem_status copy_array(const frames *f, const hdf5_file *from, const hdf5_file *to, const struct array *a,
-                             hdf5_span span)
+/* What is hidden is made of what is broken, where the file has only that. */
+static dem_status copy_frame(const copying *c, const struct array *a, hsize_t from, hsize_t to)
 {
-    const hdf5_rows rows = array_rows(f, a);
-    const hsize_t n = (hsize_t)count_of(f, a->of);
-    if (is_older(from, a)) return copy_hidden(f, from, to, a, span);
-    return hdf5_copy(from, to, &rows, (hdf5_span){n * span.first, n * span.count, n * span.at});
+    hdf5_rows rows = array_rows(c->whole, a);
+    const hdf5_rows out = array_rows(c->target, a);
+    const hsize_t all = (hsize_t)count_of(c->whole, a->of), n = (hsize_t)count_of(c->target, a->of);
+    const hsize_t first = c->stripe < 0 ? 0 : (hsize_t)first_of(c->whole, a->of, c->stripe);
+    const bool older = is_older(c->from, a);
+    if (older) rows.name = flags_of(a);
+    if (n == 0) return DEM_OK;
+    TRY(hdf5_read(c->from, &rows, all * from + first, n, c->target->scratch));
+    if (older) hide(c->target, (dem_index)n);
+    return hdf5_append(c->to, &out, n * to, n, c->target->scratch);
+}
+
+static dem_status copy_arrays(const copying *c, hdf5_span span)
+{
+    for (int k = 0; k < N_ARRAYS; k++)
+        for (hsize_t n = 0; n < span.count && is_wanted(c->target, &arrays[k]); n++)
+            TRY(copy_frame(c, &arrays[k], span.first + n, span.at + n));
+    return DEM_OK;
 }
 
 /* Data are copied, offsets are computed anew, since the frames begin elsewhere here. */
 dem_status frames_copy(const frames *f, const hdf5_file *from, const hdf5_file *to, hdf5_span span)
 {
     if (span.count == 0) return DEM_OK;
-    for (int k = 0; k < N_ARRAYS; k++)
-        if (is_wanted(f, &arrays[k])) TRY(copy_array(f, from, to, &arrays[k], span));
+    const copying all = {f, f, -1, from, to};
+    if (f->n_stripes == 0) TRY(copy_arrays(&all, span));
     for (int k = 0; k < N_ROWS; k++) {
         const hdf5_rows rows = row_of(k);
         TRY(hdf5_copy(from, to, &rows, span));
@@ -587,6 +627,96 @@ dem_status frames_copy(const frames *f, const hdf5_file *from, const hdf5_file *
     /* The offsets of frames that come from another file. */
     for (hsize_t n = span.at; n < span.at + span.count; n++) TRY(append_offsets(f, to, n));
     return write_count(f, to, (dem_index)(span.at + span.count));
+}
+
+/* ---- stripes ---- */
+
+static dem_index rows_of(const frames *f, enum of of, int k)
+{
+    return first_of(f, of, k + 1) - first_of(f, of, k);
+}
+
+frames frames_of_stripe(const frames *f, int k)
+{
+    return (frames){.n_nodes = rows_of(f, NODES, k),
+                    .n_springs = rows_of(f, SPRINGS, k),
+                    .n_triangles = rows_of(f, TRIANGLES, k),
+                    .fields = f->fields,
+                    .real = f->real,
+                    .deflate = f->deflate};
+}
+
+/* Bytes of a row in memory. */
+static size_t size_of(const struct array *a)
+{
+    return (size_t)a->components * (a->kind == HDF5_U8 ? 1 : sizeof(double));
+}
+
+size_t frames_first_byte(const frames *f, int array, int k)
+{
+    return (size_t)first_of(f, arrays[array].of, k) * size_of(&arrays[array]);
+}
+
+dem_status frames_create_stripe(const frames *stripe, const hdf5_file *file)
+{
+    for (int k = 0; k < N_ARRAYS; k++) {
+        const hdf5_rows rows = array_rows(stripe, &arrays[k]);
+        if (is_wanted(stripe, &arrays[k])) TRY(hdf5_create(file, &rows));
+    }
+    return DEM_OK;
+}
+
+hsize_t frames_stripe_bytes(const frames *stripe, hsize_t n)
+{
+    return n * frames_bytes(stripe);
+}
+
+dem_status frames_write_stripe(const frames *stripe, const hdf5_file *file, int array, hsize_t frame, const void *data)
+{
+    const struct array *a = &arrays[array];
+    const hdf5_rows rows = array_rows(stripe, a);
+    const hsize_t n = (hsize_t)count_of(stripe, a->of);
+    return is_wanted(stripe, a) ? hdf5_append(file, &rows, frame * n, n, data) : DEM_OK;
+}
+
+/* The scratch is that of one frame. */
+dem_status frames_copy_stripe(const frames *f, int k, const hdf5_file *from, const hdf5_file *to, hdf5_span span)
+{
+    frames stripe = frames_of_stripe(f, k);
+    TRY(make_scratch(&stripe));
+    const copying c = {f, &stripe, k, from, to};
+    const dem_status status = copy_arrays(&c, span);
+    free(stripe.scratch);
+    return status;
+}
+
+/* A stripe may have no row of a small array. */
+static dem_status map_array(const frames *f, const hdf5_file *file, const struct array *a, frames_mapped n,
+                            hdf5_stripe *stripes)
+{
+    const hdf5_rows rows = array_rows(f, a);
+    const hsize_t all = (hsize_t)count_of(f, a->of);
+    for (int k = 0; k < f->n_stripes; k++) {
+        stripes[k].first = (hsize_t)first_of(f, a->of, k);
+        stripes[k].stride = all;
+        stripes[k].n = n.frames;
+        stripes[k].grows = n.grow;
+        stripes[k].rows = (hsize_t)rows_of(f, a->of, k);
+    }
+    return all > 0 ? hdf5_map(file, &rows, n.frames * all, stripes, f->n_stripes) : DEM_OK;
+}
+
+/* Without frames the arrays are as they were made. */
+dem_status frames_map(const frames *f, const hdf5_file *file, frames_mapped n, const char (*names)[HDF5_STRIPES_NAME])
+{
+    hdf5_stripe *stripes = calloc((size_t)f->n_stripes + 1, sizeof *stripes);
+    dem_status status = DEM_OK;
+    CHECK_MEMORY(stripes);
+    for (int k = 0; k < f->n_stripes; k++) memcpy(stripes[k].file, names[k], sizeof stripes[k].file);
+    for (int k = 0; k < N_ARRAYS && (n.frames > 0 || n.grow) && status == DEM_OK; k++)
+        if (is_wanted(f, &arrays[k])) status = map_array(f, file, &arrays[k], n, stripes);
+    free(stripes);
+    return status;
 }
 
 /* Checks the shape of every dataset that the frames need, by the same tables by which they are written.

@@ -26,6 +26,7 @@ typedef struct frames {
     uint32_t fields; /* DEM_FIELD_... */
     hdf5_kind real;  /* of most arrays in the file: HDF5_F32 or HDF5_F64 */
     int deflate;
+    int n_stripes;    /* files that have the rows of arrays, a range of each (stripe_file.h); 0: the file itself */
     dem_index before; /* frames in the files before this one */
     dem_index n;      /* frames in this file */
     double last;      /* time of the last frame, s */
@@ -53,8 +54,42 @@ dem_status frames_create(const frames *f, const hdf5_file *file, const dem_latti
 hsize_t frames_bytes(const frames *f);
 
 /** Adds the present state of the simulation as frame f->n. It counts when the caller has closed the file and raised
- *  f->n. */
+ *  f->n. Arrays in stripes have been written, and mapped, before. */
 dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simulation *simulation);
+
+/* ---- stripes ---- */
+
+/** Takes array number `array` of a frame, [rows of the whole][components]. */
+typedef dem_status frames_taker(void *context, int array, const void *data);
+
+/** Hands all arrays of the present state of the simulation over, one after the other. */
+dem_status frames_hand_out(const frames *f, const dem_simulation *simulation, frames_taker *take, void *context);
+
+/** The frames of stripe k, 0 <= k < f->n_stripes, which are all in one file. */
+frames frames_of_stripe(const frames *f, int k);
+
+/** Where its rows of an array begin, and how many bytes they are: in memory. */
+size_t frames_first_byte(const frames *f, int array, int k);
+
+/** Makes the arrays in the file of a stripe, without frames; and an upper bound of the bytes of n frames. */
+dem_status frames_create_stripe(const frames *stripe, const hdf5_file *file);
+hsize_t frames_stripe_bytes(const frames *stripe, hsize_t n);
+
+/** Writes an array as that of a frame. */
+dem_status frames_write_stripe(const frames *stripe, const hdf5_file *file, int array, hsize_t frame, const void *data);
+
+/** Copies frames of a file of the whole into that of stripe k. */
+dem_status frames_copy_stripe(const frames *f, int k, const hdf5_file *from, const hdf5_file *to, hdf5_span span);
+
+/** How many frames a file has of stripes. */
+typedef struct frames_mapped {
+    bool grow;      /**< as many as there are */
+    hsize_t frames; /**< 0 where they grow */
+} frames_mapped;
+
+/** Lets a file have frames of arrays whose rows are in stripes.
+ *  \param names  [n_stripes] of their files */
+dem_status frames_map(const frames *f, const hdf5_file *file, frames_mapped n, const char (*names)[HDF5_STRIPES_NAME]);
 
 /** Adds an array that is the same in all frames, to a file made by frames_create().
  *  \param values  [number of nodes or springs][components] */
@@ -65,7 +100,7 @@ dem_status frames_write_constant(const frames *f, const hdf5_file *file, const f
 void frames_spread_stress(double *out, dem_index n, const double *stress);
 
 /** Copies frames of another file; in this one they begin at frame span.at. What a file of an older version does not
- *  have is made from what is broken. */
+ *  have is made from what is broken. Arrays in stripes are left out. */
 dem_status frames_copy(const frames *f, const hdf5_file *from, const hdf5_file *to, hdf5_span span);
 
 /** The number of frames of a file; DEM_ERROR_IO unless every array has as many, but for those that frames_copy()

@@ -10,6 +10,7 @@
 #include "base/publish.h"
 #include "base/status.h"
 #include "output/hdf5_chunks.h"
+#include "output/hdf5_stripes.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -132,14 +133,15 @@ typedef struct unread {
 } unread;
 
 /* Called for every link below the root. A number other than 0 ends the visit. What a link by name leads to is read
- * where it is. */
+ * where it is, and so is what stands in another file. */
 static herr_t visit(hid_t root, const char *name, const H5L_info_t *info, void *context)
 {
     unread *u = context;
     if (info->type != H5L_TYPE_HARD) return 0;
     const hid_t object = H5Oopen(root, name, H5P_DEFAULT);
     dem_status status = object < 0 ? DEM_ERROR_IO : DEM_OK;
-    if (status == DEM_OK && H5Iget_type(object) == H5I_DATASET) status = read_dataset(object);
+    if (status == DEM_OK && H5Iget_type(object) == H5I_DATASET && hdf5_stripes_count(object) == 0)
+        status = read_dataset(object);
     if (status == DEM_ERROR_IO) u->status = hdf5_fail(u->file, name, "cannot be read back");
     if (status == DEM_ERROR_MEMORY) u->status = status_fail(status, "out of memory to read back %s", u->file->path);
     if (object >= 0) (void)H5Oclose(object);
@@ -331,6 +333,15 @@ static dem_status end_link(const hdf5_file *file, const char *name, hid_t links,
 bool hdf5_has(const hdf5_file *file, const char *name)
 {
     return H5Lexists(file->id, name, H5P_DEFAULT) > 0;
+}
+
+dem_status hdf5_beside(char out[HDF5_PATH], const hdf5_file *file, const char *name)
+{
+    const char *slash = strrchr(file->path, '/');
+    const int folder = slash != NULL ? (int)(slash - file->path) + 1 : 0;
+    const int n = snprintf(out, HDF5_PATH, "%.*s%s", folder, file->path, name);
+    CHECK(n > 0 && n < HDF5_PATH, DEM_ERROR_IO, "%s: the path of a file beside it is too long", file->path);
+    return DEM_OK;
 }
 
 dem_status hdf5_link(const hdf5_file *file, const char *name, const char *target)

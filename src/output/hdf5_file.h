@@ -25,7 +25,10 @@ typedef struct hdf5_file {
     deflater *deflater;       /**< of a file that is written to */
     deflater_helpers helpers; /**< none at first */
     kept_datasets *kept;
+    bool takes_stripes; /**< of one that may come from anywhere: its rows may stand in files beside it */
 } hdf5_file;
+
+enum { HDF5_PATH = 4608 /**< bytes */ };
 
 dem_status hdf5_open_read(hdf5_file *out, const char *path);
 
@@ -60,6 +63,9 @@ hid_t hdf5_parents(void);
 /** Whether there is an object of this name. */
 bool hdf5_has(const hdf5_file *file, const char *name);
 
+/** The path of a file in the same folder.  \return DEM_ERROR_IO if it is too long */
+dem_status hdf5_beside(char out[HDF5_PATH], const hdf5_file *file, const char *name);
+
 /** Gives a dataset a second name. */
 dem_status hdf5_link(const hdf5_file *file, const char *name, const char *target);
 
@@ -70,8 +76,9 @@ dem_status hdf5_link_name(const hdf5_file *file, const char *name, const char *t
  *  \param other  as seen from the folder of this file */
 dem_status hdf5_link_file(const hdf5_file *file, const char *name, const char *other, const char *target);
 
-/** Syncs the closed file `part`, reads all of it back, renames it to `path` and syncs the folder. HDF5 1.10 may report
- *  success on a full disk, so that only reading shows whether the file is whole. */
+/** Syncs the closed file `part`, reads all of it back that stands in it, renames it to `path`, which may be its name,
+ *  and syncs the folder. HDF5 1.10 may report success on a full disk, so that only reading shows whether the file is
+ *  whole. */
 dem_status hdf5_publish(const char *part, const char *path);
 
 #endif

@@ -4,6 +4,7 @@
 #define DEM_OUTPUT_HDF5_ROWS_H
 
 #include "output/hdf5_file.h"
+#include "output/hdf5_stripes.h"
 
 /** Types of numbers in a file. In memory HDF5_F32 is double and HDF5_I8 is int64_t; the others are the same. */
 typedef enum hdf5_kind { HDF5_F64, HDF5_F32, HDF5_I64, HDF5_I32, HDF5_I8, HDF5_U8 } hdf5_kind;
@@ -34,6 +35,11 @@ dem_status hdf5_create(const hdf5_file *file, const hdf5_rows *rows);
 /** Stores `count` rows from row `first` on; rows behind them are cut off. */
 dem_status hdf5_append(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, const void *data);
 
+/** Makes a dataset whose rows stand in n other files, in place of one of that name.
+ *  \param count    rows; 0 of one that grows
+ *  \param stripes  [n], which have all rows together, and all or none of which grow; those without rows are left out */
+dem_status hdf5_map(const hdf5_file *file, const hdf5_rows *rows, hsize_t count, const hdf5_stripe *stripes, int n);
+
 /** Reads `count` existing rows from row `first` on. */
 dem_status hdf5_read(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, void *data);
 
@@ -45,7 +51,8 @@ dem_status hdf5_write(const hdf5_file *file, hdf5_rows rows, hsize_t count, cons
 
 dem_status hdf5_count_rows(const hdf5_file *file, const char *name, hsize_t *count);
 
-/** DEM_ERROR_IO unless the dataset has this kind of numbers, these extents and `count` rows. */
+/** DEM_ERROR_IO unless the dataset has this kind of numbers, these extents and `count` rows, and those that stand in
+ *  other files are there. */
 dem_status hdf5_expect_rows(const hdf5_file *file, const hdf5_rows *rows, hsize_t count);
 
 #endif

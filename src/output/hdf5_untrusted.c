@@ -4,7 +4,8 @@
  *   links         hard ones only: a soft link may lead round in circles, an external one to another file
  *   type          integers and reals of at most 16 bytes, booleans as h5py has them
  *   extent        at most 3 dimensions, 2^40 rows and 2^44 numbers: no size in bytes overflows
- *   layout        in this file, no external or virtual storage
+ *   layout        in this file, no external or virtual storage; where it may be, stripes of files beside it, which are
+ *                 checked in the same way when they are read and may not have stripes themselves
  *   filters       deflate, shuffle and fletcher32: others may be plugins, which are programs
  *   size          no more than the stored bytes can hold, however well they are deflated
  *   chunks        each holds what its extent says (hdf5_chunks.h)
@@ -16,6 +17,7 @@
 #include "output/hdf5_chunks.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -182,6 +184,40 @@ static dem_status check_size(const hdf5_file *file, const char *name, hid_t data
     return DEM_OK;
 }
 
+/* Extents beyond the rank are 1, so that their product is always the number of items. */
+static void measure_extent(hid_t dataset, hdf5_untrusted_shape *out)
+{
+    const hid_t space = H5Dget_space(dataset);
+    const int rank = H5Sget_simple_extent_ndims(space);
+    const bool fits = H5Sget_simple_extent_type(space) == H5S_SIMPLE && rank >= 1 && rank <= HDF5_MAX_RANK;
+    for (int d = 0; d < HDF5_MAX_RANK; d++) out->extent[d] = 1;
+    out->rank = fits && H5Sget_simple_extent_dims(space, out->extent, NULL) >= 0 ? rank : 0;
+    (void)H5Sclose(space);
+}
+
+/* All rows of a dataset have to be those of a stripe. Whether these are there is seen when they are read. */
+static dem_status check_stripes(const hdf5_file *file, const char *name, hid_t dataset, hsize_t n)
+{
+    hdf5_untrusted_shape shape;
+    hsize_t rows = 0;
+    int n_stripes = 0;
+    hdf5_stripe *list = NULL;
+    measure_extent(dataset, &shape);
+    const dem_status status = hdf5_stripes_list(dataset, name, &list, &n_stripes);
+    bool good = status == DEM_OK;
+    if (status == DEM_ERROR_MEMORY) return status;
+    hsize_t all = shape.extent[0];
+    for (int k = 0; k < n_stripes && good; k++) {
+        good = list[k].n * list[k].rows <= shape.extent[0] - rows;
+        rows += list[k].n * list[k].rows;
+        if (list[k].grows) all = list[k].n * list[k].stride; /* what is more is of a block that is being written */
+    }
+    free(list);
+    if (!good) return hdf5_untrusted_refuse(file, name, "has a virtual or unknown layout");
+    if (n > 0 && rows != all) return hdf5_untrusted_refuse(file, name, "has rows that stand in no file");
+    return DEM_OK;
+}
+
 /* Checks where and how n numbers of `size` bytes are kept. A chunk may be larger than the dataset and counts in
  * full. */
 static dem_status check_storage(const hdf5_file *file, const char *name, hid_t dataset, hsize_t size, hsize_t n)
@@ -192,6 +228,8 @@ static dem_status check_storage(const hdf5_file *file, const char *name, hid_t d
     dem_status status;
     if (H5Pget_external_count(layout) != 0)
         status = hdf5_untrusted_refuse(file, name, "keeps its data in an external file");
+    else if (kind == H5D_VIRTUAL && file->takes_stripes)
+        status = check_stripes(file, name, dataset, n);
     else if (kind != H5D_COMPACT && kind != H5D_CONTIGUOUS && kind != H5D_CHUNKED)
         status = hdf5_untrusted_refuse(file, name, "has a virtual or unknown layout");
     /* Sizes say something only if the filters are known. */
@@ -199,17 +237,6 @@ static dem_status check_storage(const hdf5_file *file, const char *name, hid_t d
         status = check_size(file, name, dataset, size * (n > chunk ? n : chunk));
     (void)H5Pclose(layout);
     return status;
-}
-
-/* Extents beyond the rank are 1, so that their product is always the number of items. */
-static void measure_extent(hid_t dataset, hdf5_untrusted_shape *out)
-{
-    const hid_t space = H5Dget_space(dataset);
-    const int rank = H5Sget_simple_extent_ndims(space);
-    const bool fits = H5Sget_simple_extent_type(space) == H5S_SIMPLE && rank >= 1 && rank <= HDF5_MAX_RANK;
-    for (int d = 0; d < HDF5_MAX_RANK; d++) out->extent[d] = 1;
-    out->rank = fits && H5Sget_simple_extent_dims(space, out->extent, NULL) >= 0 ? rank : 0;
-    (void)H5Sclose(space);
 }
 
 /* Multiplies extents without overflow: each factor is compared with what is left of the limit first. */
@@ -226,7 +253,19 @@ static dem_status count_numbers(const hdf5_file *file, const char *name, const h
     return DEM_OK;
 }
 
-/* Type, extent, number of items, storage: in this order nothing depends on what has not been checked. */
+/* HDF5 opens files of virtual storage when it is asked for an extent. */
+static dem_status check_virtual(const hdf5_file *file, const char *name, hid_t dataset)
+{
+    const hid_t layout = H5Dget_create_plist(dataset);
+    const bool is_virtual = H5Pget_layout(layout) == H5D_VIRTUAL;
+    (void)H5Pclose(layout);
+    if (is_virtual && !(file->takes_stripes && hdf5_stripes_are_beside(dataset, name)))
+        return hdf5_untrusted_refuse(file, name, "has a virtual or unknown layout");
+    return DEM_OK;
+}
+
+/* Type, virtual storage, extent, number of items, other storage: in this order nothing depends on what has not been
+ * checked. */
 static dem_status measure(const hdf5_file *file, const char *name, hid_t dataset, hdf5_kind kind,
                           hdf5_untrusted_shape *out)
 {
@@ -237,6 +276,7 @@ static dem_status measure(const hdf5_file *file, const char *name, hid_t dataset
     out->stored = kind_of(type);
     (void)H5Tclose(type);
     if (misfit != NULL) return hdf5_untrusted_refuse(file, name, misfit);
+    TRY(check_virtual(file, name, dataset));
     measure_extent(dataset, out);
     if (out->rank == 0) return DEM_OK;
     TRY(count_numbers(file, name, out, &n));
@@ -261,6 +301,16 @@ static H5T_conv_ret_t on_conversion(H5T_conv_except_t exception, hid_t from, hid
                                                                                            : H5T_CONV_UNHANDLED;
 }
 
+/* ---- rows ---- */
+
+/* Rows of a dataset that stand in files beside it, and where they go. */
+typedef struct stripe_rows {
+    hdf5_untrusted_rows rows;
+    hdf5_untrusted_shape shape; /* of the dataset */
+    size_t size;                /* bytes of a row in memory */
+    void *data;
+} stripe_rows;
+
 /* All columns of the rows, or the first `width` of each. The cause of a failure is HDF5's only until its next call. */
 static dem_status read_rows(const hdf5_file *file, const char *name, hid_t dataset, hdf5_kind kind,
                             const hdf5_untrusted_rows *rows, void *data)
@@ -284,15 +334,90 @@ static dem_status read_rows(const hdf5_file *file, const char *name, hid_t datas
     return status;
 }
 
-/* A selection of no rows is not read at all. */
-dem_status hdf5_untrusted_read(const hdf5_file *file, const char *name, hdf5_kind kind, hdf5_untrusted_rows rows,
-                               void *data)
+static dem_status read_here(const hdf5_file *file, const char *name, hdf5_kind kind, hdf5_untrusted_rows rows,
+                            void *data)
 {
-    if (rows.count == 0) return DEM_OK;
     const hid_t dataset = hdf5_chunks_open(file->id, name);
     if (dataset < 0) return hdf5_fail(file, name, "is not a readable dataset");
     const dem_status status = read_rows(file, name, dataset, kind, &rows, data);
     (void)H5Dclose(dataset);
+    return status;
+}
+
+/* Bytes in memory of the numbers that are read of a row. */
+static size_t size_of_row(const hdf5_untrusted_shape *shape, hdf5_kind kind, hsize_t width)
+{
+    const hsize_t columns = width > 0 && shape->rank > 1 ? width : shape->extent[1];
+    return (size_t)(columns * shape->extent[2]) * H5Tget_size(hdf5_memory_type(kind));
+}
+
+/* Checks what a stripe has of a dataset of this shape. */
+static dem_status check_stripe(const hdf5_file *other, const char *name, const hdf5_untrusted_shape *here,
+                               const hdf5_stripe *stripe)
+{
+    hdf5_untrusted_shape there;
+    bool present = false;
+    TRY(hdf5_untrusted_find(other, name, &present));
+    if (!present) return hdf5_untrusted_refuse(other, name, "is missing");
+    TRY(hdf5_untrusted_measure(other, name, HDF5_F64, &there));
+    const bool has_rows = stripe->grows || there.extent[0] >= stripe->n * stripe->rows;
+    if (here->rank != there.rank || !has_rows || there.extent[1] != here->extent[1] ||
+        there.extent[2] != here->extent[2])
+        return hdf5_untrusted_refuse(other, name, "does not have the rows of its stripe");
+    return DEM_OK;
+}
+
+/* What the rows have of a stripe, block by block, from its file. */
+static dem_status read_blocks(const hdf5_file *other, const char *name, hdf5_kind kind, const hdf5_stripe *stripe,
+                              const stripe_rows *wanted)
+{
+    const hsize_t first = wanted->rows.first, end = first + wanted->rows.count;
+    const hsize_t before = first > stripe->first ? (first - stripe->first) / stripe->stride : 0;
+    for (hsize_t k = before; k < stripe->n && stripe->first + k * stripe->stride < end; k++) {
+        const hsize_t block = stripe->first + k * stripe->stride, from = block > first ? block : first;
+        const hsize_t to = block + stripe->rows < end ? block + stripe->rows : end;
+        if (to <= from) continue;
+        const hdf5_untrusted_rows rows = {k * stripe->rows + from - block, to - from, wanted->rows.width};
+        TRY(read_here(other, name, kind, rows, (char *)wanted->data + (size_t)(from - first) * wanted->size));
+    }
+    return DEM_OK;
+}
+
+/* From the file of a stripe, which may not have stripes itself. */
+static dem_status read_stripe(const hdf5_file *file, const char *name, hdf5_kind kind, const hdf5_stripe *stripe,
+                              const stripe_rows *wanted)
+{
+    char path[HDF5_PATH];
+    hdf5_file other;
+    TRY(hdf5_beside(path, file, stripe->file));
+    TRY(hdf5_untrusted_open(&other, path));
+    dem_status status = check_stripe(&other, name, &wanted->shape, stripe);
+    if (status == DEM_OK) status = read_blocks(&other, name, kind, stripe, wanted);
+    return hdf5_close(&other, status);
+}
+
+/* A selection of no rows is not read at all. Of stripes, what none has is 0. */
+dem_status hdf5_untrusted_read(const hdf5_file *file, const char *name, hdf5_kind kind, hdf5_untrusted_rows rows,
+                               void *data)
+{
+    int n = 0;
+    dem_status status = DEM_OK;
+    if (rows.count == 0) return DEM_OK;
+    const hid_t dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
+    if (dataset < 0) return hdf5_fail(file, name, "is not a readable dataset");
+    const bool is_striped = file->takes_stripes && hdf5_stripes_count(dataset) > 0;
+    stripe_rows wanted = {.rows = rows, .data = data};
+    hdf5_stripe *list = NULL;
+    if (is_striped) status = hdf5_stripes_list(dataset, name, &list, &n);
+    if (is_striped) measure_extent(dataset, &wanted.shape);
+    (void)H5Dclose(dataset);
+    if (!is_striped) return read_here(file, name, kind, rows, data);
+    if (status == DEM_ERROR_IO) return hdf5_untrusted_refuse(file, name, "has a virtual or unknown layout");
+    TRY(status);
+    wanted.size = size_of_row(&wanted.shape, kind, rows.width);
+    memset(data, 0, (size_t)rows.count * wanted.size);
+    for (int k = 0; k < n && status == DEM_OK; k++) status = read_stripe(file, name, kind, &list[k], &wanted);
+    free(list);
     return status;
 }
 

@@ -24,7 +24,8 @@ typedef struct hdf5_untrusted_rows {
     hsize_t width; /**< the first so many numbers of each row; 0: all */
 } hdf5_untrusted_rows;
 
-/** Opens a file for reading, if it is a regular one. */
+/** Opens a file for reading, if it is a regular one. Rows of datasets may stand in files beside it where takes_stripes
+ *  is set then. */
 dem_status hdf5_untrusted_open(hdf5_file *out, const char *path);
 
 /** Whether there is an object of this absolute path. Soft and external links on the way are refused. */

@@ -11,6 +11,7 @@
  * file contains is in trajectory_rows.c; reading back is in trajectory_reader.c. */
 #include <dem/trajectory.h>
 
+#include "base/rank_order.h"
 #include "base/status.h"
 #include "base/struct_size.h"
 #include "output/body_file.h"
@@ -97,6 +98,8 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
     if (f->before + f->n > 0 && state.t == f->last) return DEM_OK;
     TRY(fragment_table_measure(&t->rows.fragments, simulation));
     const hsize_t of_fragments = fragment_table_bytes(&t->rows.fragments);
+    /* While the part is closed, for the file of one stripe may be this process's. */
+    TRY(trajectory_parts_append(&t->segments, &t->rows, simulation));
     TRY(open_part(t, trajectory_rows_flush_bytes(&t->rows) + of_fragments + frames_bytes(f)));
     t->part.helpers.simulation = simulation;
     const dem_status status = append_frame(t, &t->part, simulation);
@@ -289,6 +292,14 @@ static dem_status check_options(const char *path, const dem_trajectory_options *
     return DEM_OK;
 }
 
+static dem_status check_writers(const dem_simulation *simulation, int writers)
+{
+    const int ranks = rank_order_ranks(simulation);
+    CHECK(writers >= 0 && (writers <= 1 || writers <= ranks), DEM_ERROR_ARGUMENT,
+          "%d writers: there may be 1 to as many as ranks make the run, %d", writers, ranks);
+    return DEM_OK;
+}
+
 /* Files have the rows of all nodes. */
 static dem_status check_whole(const dem_simulation *simulation)
 {
@@ -310,6 +321,7 @@ static dem_status prepare(dem_trajectory **out, const char *path, const dem_simu
     TRY(struct_size_read(&options_kind, &own, options));
     TRY(check_whole(simulation));
     TRY(check_options(path, &own));
+    TRY(check_writers(simulation, own.writers));
     dem_trajectory *t = calloc(1, sizeof *t);
     CHECK_MEMORY(t);
     dem_status status = trajectory_rows_init(&t->rows, simulation, &own);

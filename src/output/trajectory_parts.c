@@ -46,7 +46,7 @@ static int stem_of(const char *path)
 }
 
 /* All names are one allocation, each with room for the longest ending and any number. */
-dem_status trajectory_parts_init(segments *out, const char *path, const trajectory_rows *r)
+dem_status trajectory_parts_init(segments *out, const char *path, trajectory_rows *r)
 {
     const size_t size = strlen(path) + 32;
     char *text = malloc((PARTS_NAMES + 1) * size);
@@ -59,6 +59,7 @@ dem_status trajectory_parts_init(segments *out, const char *path, const trajecto
         (void)snprintf(out->names[k], size, "%.*s%s", stem_of(path), path, endings[k]);
     }
     out->segment = text + PARTS_NAMES * size;
+    r->stripes.path = out->names[PARTS_WHOLE];
     return DEM_OK;
 }
 
@@ -117,7 +118,9 @@ static dem_status verify(const segments *s, const trajectory_rows *r, const char
 typedef struct extract {
     const char *source; /* NULL: no rows */
     const char *path;
-    dem_index number; /* of the segment that it becomes; 0: none */
+    dem_index number;  /* of the segment that it becomes; 0: none */
+    dem_index stripes; /* number of the segment whose stripes have its frames, where there are any */
+    bool has_first;    /* of these frames only as many as are copied */
 } extract;
 
 /* Lattice, obstacles and notes first, as every file has them, then the rows, then the mark. */
@@ -125,6 +128,8 @@ static dem_status write_extract(const segments *s, const trajectory_rows *r, con
 {
     TRY(trajectory_rows_create(r, file));
     if (e->source != NULL) TRY(copy_from(s, r, e->source, file));
+    const frames_mapped mapped = {!e->has_first, e->has_first ? s->spans[ROWS_FRAMES].count : 0};
+    TRY(stripes_map(&r->stripes, &r->frames, e->stripes, file, mapped));
     return e->number > 0 ? mark_segment(file, e->number) : DEM_OK;
 }
 
@@ -142,12 +147,20 @@ static dem_status make(const segments *s, const trajectory_rows *r, extract e)
     return status;
 }
 
-/* The temporary files of a killed run hold nothing that is needed. */
+/* The temporary files of a killed run hold nothing that is needed, nor do the stripes of its part and of segments that
+ * are to be removed. */
 dem_status trajectory_parts_open(const segments *s, const trajectory_rows *r)
 {
     (void)unlink(s->names[PARTS_HEAD]);
     (void)unlink(s->names[PARTS_REST]);
-    return make(s, r, (extract){NULL, s->names[PARTS_PART], 0});
+    stripes_prune(&r->stripes, s->n);
+    TRY(stripes_create(&r->stripes, &r->frames, s->n + 1));
+    return make(s, r, (extract){NULL, s->names[PARTS_PART], 0, s->n + 1, false});
+}
+
+dem_status trajectory_parts_append(const segments *s, const trajectory_rows *r, const dem_simulation *simulation)
+{
+    return stripes_append(&r->stripes, &r->frames, s->n + 1, simulation);
 }
 
 /* ---- cutting ---- */
@@ -168,17 +181,20 @@ static dem_status make_head(const segments *s, const trajectory_rows *r, const h
 {
     for (int k = 0; k < r->n_kinds; k++)
         s->spans[k] = (hdf5_span){0, upto[k] - (trajectory_rows_total(r, k) - trajectory_rows_written(r, k)), 0};
-    return make(s, r, (extract){s->names[PARTS_PART], s->names[PARTS_HEAD], s->n + 1});
+    return make(s, r, (extract){s->names[PARTS_PART], s->names[PARTS_HEAD], s->n + 1, s->n + 1, true});
 }
 
-/* Copies the rows of the part behind `upto` into the file that will be the next part; without such rows it is empty. */
+/* Copies the rows of the part behind `upto` into the file that will be the next part; without such rows it is empty.
+ * Its stripes are those of the segment that it will be. */
 static dem_status make_rest(const segments *s, const trajectory_rows *r, const hsize_t *upto, bool later)
 {
     for (int k = 0; k < r->n_kinds; k++) {
         const hsize_t count = trajectory_rows_total(r, k) - upto[k];
         s->spans[k] = (hdf5_span){trajectory_rows_written(r, k) - count, count, 0};
     }
-    return make(s, r, (extract){later ? s->names[PARTS_PART] : NULL, s->names[PARTS_REST], 0});
+    TRY(stripes_create(&r->stripes, &r->frames, s->n + 2));
+    if (later) TRY(stripes_copy(&r->stripes, &r->frames, s->n + 2, s->names[PARTS_PART], s->spans[ROWS_FRAMES]));
+    return make(s, r, (extract){later ? s->names[PARTS_PART] : NULL, s->names[PARTS_REST], 0, s->n + 2, false});
 }
 
 /* A rename: the old part is gone, or has become the segment. */
@@ -196,21 +212,24 @@ static dem_status check_free(segments *s)
     return DEM_OK;
 }
 
-/* Publishes the segment, then puts the rest in the place of the part.
+/* Publishes the segment, then puts the rest in the place of the part. Stripes keep their names; a head has the frames
+ * that it needs of them.
  * \param whole  the part becomes the segment as it is */
 static dem_status publish_cut(segments *s, const trajectory_rows *r, const hsize_t *upto, bool whole)
 {
+    TRY(stripes_publish(&r->stripes, &r->frames, s->n + 1));
     TRY(whole ? mark_part(s) : make_head(s, r, upto));
     TRY(hdf5_publish(s->names[whole ? PARTS_PART : PARTS_HEAD], s->segment));
     return replace_part(s);
 }
 
 /* Brings back the part, and removes what was made. */
-static void undo_cut(const segments *s, bool whole)
+static void undo_cut(const segments *s, const trajectory_rows *r, bool whole)
 {
     (void)(whole ? rename(s->segment, s->names[PARTS_PART]) : unlink(s->segment));
     (void)unlink(s->names[PARTS_HEAD]);
     (void)unlink(s->names[PARTS_REST]);
+    stripes_prune(&r->stripes, s->n + 1);
 }
 
 /* `later`: the part has rows behind `upto`, which stay in a part. If there are none, and the part is not soiled, it
@@ -234,10 +253,10 @@ dem_status trajectory_parts_cut(segments *s, trajectory_rows *r, const hsize_t *
     /* The part has nothing but the rows of the segment. */
     const bool whole = !later && !s->soiled;
     TRY(check_free(s));
-    TRY(make_rest(s, r, upto, later));
-    const dem_status status = publish_cut(s, r, upto, whole);
+    dem_status status = make_rest(s, r, upto, later);
+    if (status == DEM_OK) status = publish_cut(s, r, upto, whole);
     if (status != DEM_OK) {
-        undo_cut(s, whole);
+        undo_cut(s, r, whole);
         return status;
     }
     /* What was the rest is the part now, with its rows from 0 on. */
@@ -319,6 +338,15 @@ static dem_status look_at_whole(const segments *s, const trajectory_rows *r, con
     return upto[ROWS_HISTORY] > 0 ? history_expect_last(&r->history, file, upto[ROWS_HISTORY] - 1) : DEM_OK;
 }
 
+/* Of the whole, for the one segment. */
+static dem_status take_stripes(const segments *s, const trajectory_rows *r)
+{
+    stripes_prune(&r->stripes, 0);
+    TRY(stripes_create(&r->stripes, &r->frames, 1));
+    TRY(stripes_copy(&r->stripes, &r->frames, 1, s->names[PARTS_WHOLE], s->spans[ROWS_FRAMES]));
+    return stripes_publish(&r->stripes, &r->frames, 1);
+}
+
 /* A run that was finished has no segments any more: its first rows are made the one segment again. Segments that are
  * there as well have been made of the whole, or it of them, and may go. The whole itself stays until it is replaced. */
 static dem_status take_whole(segments *s, const trajectory_rows *r, const hsize_t *upto)
@@ -334,7 +362,8 @@ static dem_status take_whole(segments *s, const trajectory_rows *r, const hsize_
     s->n = 0;
     TRY(trajectory_parts_prune(s));
     TRY(check_free(s));
-    TRY(make(s, r, (extract){whole, head, 1}));
+    TRY(take_stripes(s, r));
+    TRY(make(s, r, (extract){whole, head, 1, 1, false}));
     status = hdf5_publish(head, s->segment);
     if (status != DEM_OK) (void)unlink(head);
     return status;
@@ -371,6 +400,24 @@ static dem_status append_all(const segments *s, const trajectory_rows *r, const 
     return trajectory_rows_copy(r, from, to, s->spans);
 }
 
+/* Those of the whole, of all files. Their names are new, or they replace those of a shorter run, which has their first
+ * frames: so its whole, which may still be there, has what it had. */
+static dem_status make_stripes(segments *s, const trajectory_rows *r)
+{
+    hsize_t *at = &s->spans[ROWS_FRAMES].at;
+    TRY(stripes_create(&r->stripes, &r->frames, 0));
+    *at = 0;
+    for (dem_index k = 0; k <= s->n && r->stripes.n > 0; k++) {
+        hdf5_file from;
+        TRY(hdf5_open_read(&from, source_of(s, k)));
+        TRY(hdf5_close(&from, trajectory_rows_count(r, &from, s->spans)));
+        s->spans[ROWS_FRAMES].first = 0;
+        TRY(stripes_copy(&r->stripes, &r->frames, 0, source_of(s, k), s->spans[ROWS_FRAMES]));
+        *at += s->spans[ROWS_FRAMES].count;
+    }
+    return stripes_publish(&r->stripes, &r->frames, 0);
+}
+
 /* Peaks come last, since their arrays are the same in all frames and are written once. */
 static dem_status write_whole(segments *s, const trajectory_rows *r, const hdf5_file *file)
 {
@@ -381,6 +428,7 @@ static dem_status write_whole(segments *s, const trajectory_rows *r, const hdf5_
         TRY(hdf5_open_read(&from, source_of(s, k)));
         TRY(hdf5_close(&from, append_all(s, r, &from, file)));
     }
+    TRY(stripes_map(&r->stripes, &r->frames, 0, file, (frames_mapped){true, 0}));
     return trajectory_rows_write_peaks(r, file, trajectory_rows_total(r, ROWS_FRAMES));
 }
 
@@ -390,6 +438,7 @@ static dem_status make_whole(segments *s, const trajectory_rows *r)
     hdf5_file file;
     hsize_t bytes =
         trajectory_rows_create_bytes(r) + trajectory_rows_peaks_bytes(r, trajectory_rows_total(r, ROWS_FRAMES));
+    TRY(make_stripes(s, r));
     for (dem_index k = 0; k <= s->n; k++) bytes += bytes_of(source_of(s, k));
     TRY(hdf5_open_new(&file, s->names[PARTS_HEAD], bytes));
     file.helpers.team = r->team;
@@ -408,11 +457,11 @@ static dem_status add_peaks(segments *s, const trajectory_rows *r)
     return hdf5_close(&file, trajectory_rows_write_peaks(r, &file, trajectory_rows_total(r, ROWS_FRAMES)));
 }
 
-/* The only part becomes the whole as it is; otherwise all files are copied into one. Parts and segments are removed
- * when the whole is published. */
+/* The only part becomes the whole as it is, but for one with stripes; otherwise all files are copied into one. Parts,
+ * segments and their stripes are removed when the whole is published, as are stripes of another number of writers. */
 dem_status trajectory_parts_join(segments *s, const trajectory_rows *r)
 {
-    const bool only = s->n == 0 && !s->soiled;
+    const bool only = s->n == 0 && !s->soiled && r->stripes.n == 0;
     const char *made = s->names[only ? PARTS_PART : PARTS_HEAD];
     dem_status status = only ? add_peaks(s, r) : make_whole(s, r);
     for (int k = 0; k < r->n_kinds; k++) s->spans[k] = (hdf5_span){0, trajectory_rows_total(r, k), 0};
@@ -420,8 +469,10 @@ dem_status trajectory_parts_join(segments *s, const trajectory_rows *r)
     if (status == DEM_OK) status = hdf5_publish(made, s->names[PARTS_WHOLE]);
     /* After success it has been renamed, and nothing is there. */
     (void)unlink(s->names[PARTS_HEAD]);
+    if (status != DEM_OK) stripes_prune(&r->stripes, s->n + 1);
     if (status != DEM_OK) return status;
     (void)unlink(s->names[PARTS_PART]);
     for (; s->n > 0; s->n--) (void)unlink(name_segment(s, s->n)); /* one that stays does no harm */
+    stripes_prune_to_whole(&r->stripes);
     return DEM_OK;
 }

@@ -2,7 +2,8 @@
 /* The files of a run NAME: the live part NAME.part.vtkhdf, the segments NAME.00001.vtkhdf, ... with the rows before it,
  * and the whole NAME.vtkhdf that they become. A new file has a temporary name until it is whole, and no file is removed
  * before the one that replaces it is on the disk. A kill at any moment therefore leaves, for every checkpoint that was
- * written after its segments, either these segments or a whole with their rows. */
+ * written after its segments, either these segments or a whole with their rows. Where there are stripes (stripes.h)
+ * each of these files has the arrays of its frames in files beside it. */
 #ifndef DEM_OUTPUT_TRAJECTORY_PARTS_H
 #define DEM_OUTPUT_TRAJECTORY_PARTS_H
 
@@ -31,12 +32,16 @@ typedef struct segments {
     hdf5_span *spans; /* [kinds of rows] scratch */
 } segments;
 
-/** `path` must end in PARTS_SUFFIX. Free with trajectory_parts_free(), after a failure too. */
-dem_status trajectory_parts_init(segments *out, const char *path, const trajectory_rows *r);
+/** `path` must end in PARTS_SUFFIX; stripes get their names from it. Free with trajectory_parts_free(), after a failure
+ *  too. */
+dem_status trajectory_parts_init(segments *out, const char *path, trajectory_rows *r);
 void trajectory_parts_free(segments *s);
 
 /** Makes a part without rows, in place of an older one. After a failure there is no part. */
 dem_status trajectory_parts_open(const segments *s, const trajectory_rows *r);
+
+/** Writes the arrays of a frame to the stripes of the part, if there are any. */
+dem_status trajectory_parts_append(const segments *s, const trajectory_rows *r, const dem_simulation *simulation);
 
 /** Removes the segments with numbers above s->n. */
 dem_status trajectory_parts_prune(segments *s);

@@ -62,6 +62,14 @@ struct dem_reader {
     dem_index n_texts, room_texts;
 };
 
+/* Arrays of frames may stand in stripes. */
+static dem_status open_run(hdf5_file *out, const dem_reader *reader)
+{
+    TRY(hdf5_untrusted_open(out, reader->path));
+    out->takes_stripes = true;
+    return DEM_OK;
+}
+
 /* ---- names ---- */
 
 /* Keeps a copy of a text for as long as the reader lives. */
@@ -437,7 +445,7 @@ static dem_status look(dem_reader *reader, const char *path)
     CHECK_MEMORY(reader->path);
     reader->lattice = dem_lattice_empty();
     TRY(dem_lattice_read(&reader->lattice, path));
-    TRY(hdf5_untrusted_open(&file, reader->path));
+    TRY(open_run(&file, reader));
     return hdf5_close(&file, list_all(reader, &file));
 }
 
@@ -549,7 +557,7 @@ static dem_status read_rows(const dem_reader *reader, const char *name, hdf5_unt
                             double *values)
 {
     hdf5_file file;
-    TRY(hdf5_untrusted_open(&file, reader->path));
+    TRY(open_run(&file, reader));
     return hdf5_close(&file, read_checked(&file, name, HDF5_F64, rows, (hsize_t)width, values));
 }
 
@@ -595,7 +603,7 @@ dem_status dem_reader_broken_triangles(const dem_reader *reader, dem_index frame
     const hdf5_untrusted_rows rows = {(hsize_t)frame * n, n, 0};
     memset(triangle, 0, (size_t)n);
     if (!reader->knows_triangles) return DEM_OK;
-    TRY(hdf5_untrusted_open(&file, reader->path));
+    TRY(open_run(&file, reader));
     TRY(hdf5_close(&file, read_checked(&file, FRAMES_BROKEN_TRIANGLES, HDF5_U8, rows, 1, triangle)));
     for (hsize_t k = 0; k < n; k++) triangle[k] = triangle[k] != 0;
     return DEM_OK;

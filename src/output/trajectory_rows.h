@@ -12,6 +12,7 @@
 #include "output/history.h"
 #include "output/probe.h"
 #include "output/provenance.h"
+#include "output/stripes.h"
 
 /* Kinds of rows. */
 enum { ROWS_FRAMES, ROWS_HISTORY, ROWS_EVENTS, ROWS_BREAKS, ROWS_PROBES /**< the first of them */ };
@@ -20,6 +21,7 @@ typedef struct trajectory_rows {
     const dem_model *model;
     dem_trajectory_options options;
     frames frames;
+    stripes stripes;          /* where arrays of frames are, if not in the file itself */
     fragment_table fragments; /* rows of frames; without columns unless wanted */
     history history;
     table events, breaks; /* without columns unless wanted */
@@ -29,7 +31,8 @@ typedef struct trajectory_rows {
     int n_kinds;
 } trajectory_rows;
 
-/** `out` must be zero. Free with trajectory_rows_free(), after a failure too. Model and peaks are borrowed. */
+/** `out` must be zero. Free with trajectory_rows_free(), after a failure too. Model and peaks are borrowed, and so is
+ *  the simulation if there are stripes. */
 dem_status trajectory_rows_init(trajectory_rows *out, const dem_simulation *simulation,
                                 const dem_trajectory_options *options);
 void trajectory_rows_free(trajectory_rows *r);

@@ -14,6 +14,7 @@
 #include "simulation/leader_observers.h"
 #include "simulation/rank_shares.h"
 #include "simulation/shared_breaks.h"
+#include "simulation/shared_orders.h"
 #include "simulation/shared_problem.h"
 #include "simulation/shared_sections.h"
 #include "simulation/shared_use.h"
@@ -235,6 +236,9 @@ static void take_part(led_run *l, const rank_call *o)
     case RANK_CALL_PACK:
         (void)pack_sections(l, NULL, (int)o->number);
         break;
+    case RANK_CALL_OBEY:
+        (void)shared_orders_pass(&l->ranks, NULL, 0);
+        break;
     case RANK_CALL_DROP:
         drop(l);
         break;
@@ -320,6 +324,21 @@ dem_status section_pack_by_ranks(const dem_simulation *simulation, section *sect
     (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_PACK, .number = n});
     led_ranks_enter(l);
     const dem_status status = pack_sections(l, sections, n);
+    led_ranks_leave(l);
+    return status;
+}
+
+int rank_order_ranks(const dem_simulation *simulation)
+{
+    return simulation->leads != NULL ? simulation->leads->ranks.size : 1;
+}
+
+dem_status rank_order_give(const dem_simulation *simulation, const rank_order *orders, int n)
+{
+    led_run *l = simulation->leads;
+    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_OBEY});
+    led_ranks_enter(l);
+    const dem_status status = shared_orders_pass(&l->ranks, orders, n);
     led_ranks_leave(l);
     return status;
 }

@@ -30,6 +30,7 @@ typedef enum rank_call_kind {
     RANK_CALL_PEAKS_LOOK,    /* or look for larger ones */
     RANK_CALL_SHARES,        /* of the model (simulation/rank_shares.h) */
     RANK_CALL_PACK,          /* so many sections of a file */
+    RANK_CALL_OBEY,          /* orders of rank 0 (simulation/shared_orders.h) */
     RANK_CALL_DROP,          /* the simulation */
     RANK_CALL_END            /* no more calls; `number` is for the program */
 } rank_call_kind;

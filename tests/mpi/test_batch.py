@@ -142,6 +142,15 @@ class UnderMpirun(unittest.TestCase):
         self.assertEqual((code, files, len(said)), (2, [], 1), said)
         self.assertRegex(said[0], "2 processes.*--jobs")
 
+    def test_more_writers_than_ranks_are_refused_in_one_line(self):
+        for launcher, writers, ranks in (([], "2", "1 rank that there is"),
+                                         ([MPIRUN, "-n", "2"], "3", "2 ranks that there are")):
+            done = subprocess.run([*launcher, DEM_BATCH, "--writers", writers, DECK], cwd=self.folder,
+                                  stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=SECONDS, check=False)
+            said = [line for line in done.stderr.splitlines() if line.startswith("dem_batch")]
+            self.assertEqual((done.returncode, list(self.folder.iterdir())), (2, []), done.stderr)
+            self.assertEqual(said, [f"dem_batch: error: {writers} writers ('--writers') are more than the {ranks}"])
+
     def test_one_process_is_a_run(self):
         code, said, files = self.run_on(1, DEM_BATCH, *SHORT, DECK)
         self.assertEqual((code, said), (0, []))
@@ -345,6 +354,65 @@ class Dropped(Runs):
         code, _, errors = self.run_on(3, "ranks", deck="dropped.nml")
         self.assertEqual(code, 0, errors)
         self.assert_same("one", "ranks")
+
+
+class Writers(Runs):
+    def stripes(self, outdir):
+        return sorted(path.name for path in (self.folder / outdir).glob("*.h5*"))
+
+    def check_virtual(self, outdir, writers):
+        """Each array of frames is in all stripes, and nothing else is."""
+        if h5py is None:
+            return
+        names = {f"free.{k + 1}of{writers}.h5" for k in range(writers)}
+        with h5py.File(self.folder / outdir / "free.vtkhdf") as file:
+            there = file["VTKHDF/Points"].virtual_sources()
+            self.assertEqual({source.file_name for source in there}, names)
+            self.assertTrue(file["VTKHDF/CellData/broken"].is_virtual and file["bodies/CellData/vtkGhostType"].is_virtual)
+            self.assertFalse(file["VTKHDF/PointData/id"].is_virtual or file["history/t"].is_virtual)
+
+    def exported(self, outdir):
+        """What dem_export reads, as text by the names of its files."""
+        export = str(pathlib.Path(DEM_BATCH).with_name("dem_export"))
+        subprocess.run([export, str(self.folder / outdir / "free.vtkhdf"), "--to", "csv", "-o", f"{outdir}/"],
+                       cwd=self.folder, stdout=subprocess.DEVNULL, check=True)
+        return {path.name: path.read_bytes() for path in (self.folder / outdir).glob("*.csv")}
+
+    def test_stripes_read_as_the_files_of_one_process_and_any_number_of_writers_goes_on(self):
+        self.assertEqual(self.run_on(0, "one")[0], 0)
+        for k, (n, writers) in enumerate(((3, 2), (0, 1), (3, 3))):
+            code, log, errors = self.run_on(n, "parts", "--writers", str(writers), "--set",
+                                            f"run.t_end={(k + 2) * 5e-5}")
+            self.assertEqual(code, 0, errors)
+            self.assertEqual("resumed" in log, k > 0)
+            self.assertEqual(self.stripes("parts"),
+                             [f"free.{j + 1}of{writers}.h5" for j in range(writers if writers > 1 else 0)])
+        self.assert_same("one", "parts")
+        self.check_virtual("parts", 3)
+        self.assertEqual(self.exported("one"), self.exported("parts"))
+
+    def test_what_breaks_is_in_stripes_and_segments(self):
+        """Of a run that is stopped after some, and goes on with another number of writers."""
+        self.assertEqual(self.run_on(0, "one", deck="breaking.nml")[0], 0)
+        code, _, errors = self.run_on(3, "parts", "--writers", "3", "--checkpoint-interval", "0.1", "--max-wall", "2",
+                                      deck="breaking.nml")
+        self.assertIn(code, (75, 0), errors)
+        code, _, errors = self.run_on(2, "parts", "--writers", "2", deck="breaking.nml")
+        self.assertEqual((code, self.stripes("parts")), (0, ["free.1of2.h5", "free.2of2.h5"]), errors)
+        self.assert_same("one", "parts")
+
+    def test_what_names_stripes_is_not_renamed_and_a_stripe_that_is_missing_is_missed(self):
+        early = ("--set", "run.t_end=1e-4", "--writers", "2")
+        self.assertEqual(self.run_on(2, "ranks", *early)[0], 0)
+        before = {path.name: path.read_bytes() for path in (self.folder / "ranks").iterdir()}
+        code, _, errors = self.run_on(2, "ranks", *early, "--set", "material.density=1051", "--overwrite")
+        self.assertEqual(code, 5)
+        self.assertRegex(errors, r"the output cannot be renamed, as its files name free\.\dof2\.h5")
+        self.assertEqual({path.name: path.read_bytes() for path in (self.folder / "ranks").iterdir()} | before, before)
+        (self.folder / "ranks" / "free.2of2.h5").unlink()
+        code, _, errors = self.run_on(2, "ranks")
+        self.assertEqual(code, 5)
+        self.assertRegex(errors, r"ranks/free\.vtkhdf does not hold its rows")
 
 
 class Touching(Runs):

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Every deck on ranks: `test_decks.py MPIRUN DEM_BATCH INPUTS_FOLDER COMPARE [NAMES]`.
 
-All decks of the folder, some of them coarser and all shorter, run on 1, 2, 3, 4 and 7 ranks with 1 and 2 threads each:
-all data and the last checkpoint are those of one process. Then a run with many impacts goes on from each of its
+All decks of the folder, some of them coarser and all shorter, run on 1, 2, 3, 4 and 7 ranks with 1 and 2 threads each,
+and as many writers as ranks with 2: all data and the last checkpoint are those of one process. Then a run with many impacts goes on from each of its
 checkpoints on another number of ranks."""
 import re
 import shutil
@@ -67,8 +67,8 @@ class OnRanks(test_batch.Runs):
         self.assertEqual(*(path.read_bytes() if path.exists() else None for path in checkpoints))
         self.assertEqual(self.result(one), self.result(other))
 
-    def run_deck(self, n, outdir, deck, *settings, threads=1):
-        more = ("--set", f"solver.threads={threads}", "--set", "solver.thread_nodes=20")
+    def run_deck(self, n, outdir, deck, *settings, threads=1, writers=1):
+        more = ("--set", f"solver.threads={threads}", "--set", "solver.thread_nodes=20", "--writers", str(writers))
         return self.run_on(n, outdir, *settings, *more, deck=str(deck))
 
 
@@ -79,7 +79,8 @@ class Decks(OnRanks):
         for n in RANKS:
             for threads in (1, 2):
                 name = f"{deck.stem}{n}x{threads}"
-                code, _, errors = self.run_deck(n, name, deck, *settings, threads=threads)
+                writers = n if threads > 1 else 1
+                code, _, errors = self.run_deck(n, name, deck, *settings, threads=threads, writers=writers)
                 self.assertEqual(code, expected, errors)
                 self.assert_same(deck.stem, name)
                 runs += 1

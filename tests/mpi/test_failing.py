@@ -33,6 +33,7 @@ class Failing(Asked):
 
 class Memory(Failing):
     LONG = ("--checkpoint-interval", "0.01")
+    WRITERS = 1
 
     def setUp(self):
         super().setUp()
@@ -43,7 +44,7 @@ class Memory(Failing):
         count = self.folder / "count"
         self.within = ("env", f"LD_PRELOAD={LACKING}", f"LACKING_RANK={rank}", f"LACKING_NTH={nth}",
                        f"LACKING_COUNT={count}")
-        code, _, errors = self.run_on(self.RANKS, outdir, *self.LONG)
+        code, _, errors = self.run_on(self.RANKS, outdir, *self.LONG, "--writers", str(self.WRITERS))
         self.within = ()
         n = int(count.read_text(encoding="ascii"))
         if nth > 0:
@@ -68,7 +69,8 @@ class Memory(Failing):
 
 
 class LongerMemory(Memory):
-    """From the problem that rank 0 sends to the last row that it gathers."""
+    """From the problem that rank 0 sends to the last row that a rank writes."""
+    WRITERS = Memory.RANKS
 
     def test_a_rank_runs_out_of_memory_in_the_midst(self):
         for rank in range(self.RANKS):
@@ -78,14 +80,24 @@ class LongerMemory(Memory):
 class Disk(Failing):
     LONG = ("--set", "run.t_end=6e-4", "--checkpoint-interval", "0.01")
 
-    def test_the_disk_of_the_writer_is_full(self):
-        self.assertEqual(self.run_on(0, "one", *self.LONG)[0], 0)
-        run = self.start("full")
-        resource.prlimit(self.rank_of(run, 0), resource.RLIMIT_FSIZE, (4096, 4096))
+    def fill_disk(self, rank, outdir):
+        """Of a rank. Returns what is said of it."""
+        run = self.start(outdir)
+        resource.prlimit(self.rank_of(run, rank), resource.RLIMIT_FSIZE, (4096, 4096))
         begin = time.monotonic()
         _, errors = run.communicate(timeout=test_batch.SECONDS)
         self.check_failure(run.returncode, 5, errors, time.monotonic() - begin)
+        return errors
+
+    def test_the_disk_of_a_writer_is_full(self):
+        """Of rank 0, which writes all, and of rank 1 of 3, which writes the second of two stripes."""
+        self.assertEqual(self.run_on(0, "one", *self.LONG)[0], 0)
+        self.fill_disk(0, "full")
         self.check_next("full")
+        short, self.LONG = self.LONG, (*self.LONG, "--writers", "2")
+        self.assertRegex(self.fill_disk(1, "fuller"), r"fuller/free\.0000\d\.2of2\.h5: there is no room for \d+ bytes")
+        self.LONG = short
+        self.check_next("fuller")
 
 
 if __name__ == "__main__":

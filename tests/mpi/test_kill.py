@@ -3,7 +3,7 @@
 """SIGKILL of a random rank at a random time: `test_kill.py MPIRUN DEM_BATCH INPUTS_FOLDER COMPARE [NUMBER [SEED]]`.
 
 A run is killed, and the same command goes on with 1 to 3 ranks and is killed, until one comes to its end: its data are
-those of a run that nothing happened to. Then another run begins, of free bodies, of bodies that touch, or of one that
+those of a run that nothing happened to. Of the ranks as many write frames as a lot says. Then another run begins, of free bodies, of bodies that touch, or of one that
 breaks, until there were that many kills. Every run that has lost a rank ends within ten seconds."""
 import os
 import pathlib
@@ -37,10 +37,10 @@ class Kills:
         self.slowest = 0.0  # s, from a kill to the end
         self.by_rank = [0] * MOST_RANKS
 
-    def start(self, deck, n, outdir):
+    def start(self, deck, n, outdir, writers=1):
         self.starts += 1
         command = [test_batch.MPIRUN, "-n", str(n), test_batch.DEM_BATCH, "--mpi", "--outdir", outdir, *OPTIONS,
-                   f"{deck}.nml"]
+                   "--writers", str(writers), f"{deck}.nml"]
         return subprocess.Popen(command, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, text=True)
 
@@ -72,7 +72,7 @@ class Kills:
         """Whether the run came to its end, and what was wrong."""
         n = self.chance.randint(1, MOST_RANKS)
         self.measure(deck, n)
-        run = self.start(deck, n, outdir)
+        run = self.start(deck, n, outdir, self.chance.randint(1, n))
         time.sleep(self.chance.uniform(0.0, self.longest[deck, n]))
         killed = self.left > 0 and self.kill_one(run, n)
         begin = time.monotonic()

@@ -3,8 +3,8 @@
 """Random decks on ranks: `test_random.py MPIRUN DEM_BATCH INPUTS_FOLDER COMPARE [NUMBER [FIRST_SEED]]`.
 
 Decks of tests/property, by turns of what may break, of any body, of bodies that run into each other, and of obstacles
-that move, on 1 to 7 ranks with 1 or 2 threads: files are those of one process, or the run ends with its code and its
-line."""
+that move, on 1 to 7 ranks with 1 or 2 threads, of which 1 to all write: files are those of one process, or the run ends
+with its code and its line."""
 import collections
 import pathlib
 import sys
@@ -52,8 +52,9 @@ class Census:
 
 
 class RandomDecks(test_decks.OnRanks):
-    def run_as(self, outdir, n, threads):
-        code, _, errors = self.run_deck(n, outdir, "deck.nml", "--set", "output.name=free", threads=threads)
+    def run_as(self, outdir, n, threads, writers=1):
+        code, _, errors = self.run_deck(n, outdir, "deck.nml", "--set", "output.name=free", threads=threads,
+                                        writers=writers)
         return code, [line for line in errors.splitlines() if line.startswith("deck.nml")]
 
     def check(self, seed, census):
@@ -61,7 +62,7 @@ class RandomDecks(test_decks.OnRanks):
         deck.write(self.folder)
         n, threads = test_decks.RANKS[seed % len(test_decks.RANKS)], 1 + seed // 7 % 2
         code, said = self.run_as(f"one{seed}", 0, 1)
-        there, heard = self.run_as(f"ranks{seed}", n, threads)
+        there, heard = self.run_as(f"ranks{seed}", n, threads, 1 + seed // 3 % n)
         if any("ranks are more than the" in line for line in heard):
             census.sums["decks with fewer nodes than ranks"] += 1
             return

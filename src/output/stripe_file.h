@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The file of a *stripe*: the rows of one of W equal ranges of nodes, springs and triangles in the arrays of some
+ * frames, which another file has as virtual datasets. Any rank can be ordered to write it (base/rank_order.h); between
+ * two orders it is closed. */
+#ifndef DEM_OUTPUT_STRIPE_FILE_H
+#define DEM_OUTPUT_STRIPE_FILE_H
+
+#include "output/frames.h"
+
+/** The attribute of its root with that number. */
+#define STRIPE_MARK "stripe_of"
+
+typedef enum stripe_order_kind {
+    STRIPE_CREATE, /* the file, without frames, in place of one of that name */
+    STRIPE_WRITE,  /* an array of a frame: the data of the order */
+    STRIPE_COPY,   /* frames from another file, which has all rows */
+    STRIPE_PUBLISH /* the file, under another name or its own */
+} stripe_order_kind;
+
+typedef struct stripe_order {
+    stripe_order_kind kind;
+    frames whole; /* what frames have, of all rows; no pointers */
+    int stripe, array;
+    dem_index number; /* of the segment that the stripe is of; 0: of the whole */
+    hdf5_span frames; /* of STRIPE_WRITE only the first */
+    char path[HDF5_PATH], other[HDF5_PATH];
+} stripe_order;
+
+#endif

@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* With R ranks stripe k of W is written by rank k R/W: ranks of one machine mostly have numbers one behind the other,
+ * so that stripes are spread over machines. */
+#include "output/stripes.h"
+
+#include "base/rank_order.h"
+#include "base/status.h"
+#include "output/hdf5_attribute.h"
+#include "output/stripe_file.h"
+
+#include <dirent.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char temporary[] = ".new";
+
+enum { SUFFIX = sizeof ".vtkhdf" - 1 };
+
+/* ---- names ---- */
+
+/* The end of a name, behind NAME. */
+static void print_end(char *out, size_t size, const stripes *s, dem_index number, int k)
+{
+    if (number > 0)
+        (void)snprintf(out, size, ".%05lld.%dof%d.h5", (long long)number, k + 1, s->n);
+    else
+        (void)snprintf(out, size, ".%dof%d.h5", k + 1, s->n);
+}
+
+static int stem_of(const stripes *s)
+{
+    return (int)strlen(s->path) - SUFFIX;
+}
+
+static dem_status print_path(char out[HDF5_PATH], const stripes *s, dem_index number, int k)
+{
+    char end[64];
+    print_end(end, sizeof end, s, number, k);
+    const int n = snprintf(out, HDF5_PATH, "%.*s%s", stem_of(s), s->path, end);
+    CHECK(n > 0 && (size_t)n + sizeof temporary <= HDF5_PATH, DEM_ERROR_IO, "%s: the name of a stripe is too long",
+          s->path);
+    return DEM_OK;
+}
+
+/* ---- orders ---- */
+
+/* To all writers at once. */
+typedef struct orders {
+    stripe_order *whats; /* [n] */
+    rank_order *list;    /* [n] */
+} orders;
+
+static dem_status prepare(orders *o, const stripes *s, const frames *f, dem_index number, stripe_order_kind kind)
+{
+    const int ranks = rank_order_ranks(s->simulation);
+    *o = (orders){calloc((size_t)s->n, sizeof *o->whats), calloc((size_t)s->n, sizeof *o->list)};
+    CHECK(o->whats != NULL && o->list != NULL, DEM_ERROR_MEMORY, "out of memory for %d stripes", s->n);
+    for (int k = 0; k < s->n; k++) {
+        stripe_order *what = &o->whats[k];
+        what->kind = kind;
+        what->whole = *f;
+        what->whole.scratch = what->whole.stress = what->whole.pressure = NULL;
+        what->stripe = k;
+        what->number = number;
+        TRY(print_path(what->path, s, number, k));
+        if (number == 0) memcpy(what->path + strlen(what->path), temporary, sizeof temporary);
+        o->list[k] = (rank_order){(int)((long long)k * ranks / s->n), sizeof *what, what, 0, NULL};
+    }
+    return DEM_OK;
+}
+
+static dem_status give(const orders *o, const stripes *s, dem_status status)
+{
+    if (status == DEM_OK) status = rank_order_give(s->simulation, o->list, s->n);
+    free(o->whats);
+    free(o->list);
+    return status;
+}
+
+/* A file of another run that stands under the name of a stripe is not overwritten. */
+static dem_status check_free(const stripes *s, dem_index number)
+{
+    char path[HDF5_PATH];
+    for (int k = 0; k < s->n && number > 0; k++) {
+        TRY(print_path(path, s, number, k));
+        CHECK(access(path, F_OK) != 0, DEM_ERROR_IO, "%s is in the way of a stripe of that name", path);
+    }
+    return DEM_OK;
+}
+
+dem_status stripes_create(const stripes *s, const frames *f, dem_index number)
+{
+    orders o;
+    if (s->n == 0) return DEM_OK;
+    TRY(check_free(s, number));
+    return give(&o, s, prepare(&o, s, f, number, STRIPE_CREATE));
+}
+
+dem_status stripes_copy(const stripes *s, const frames *f, dem_index number, const char *source, hdf5_span span)
+{
+    orders o;
+    if (s->n == 0 || span.count == 0) return DEM_OK;
+    dem_status status = prepare(&o, s, f, number, STRIPE_COPY);
+    for (int k = 0; k < s->n && status == DEM_OK; k++) {
+        o.whats[k].frames = span;
+        const int n = snprintf(o.whats[k].other, HDF5_PATH, "%s", source);
+        if (n < 0 || n >= HDF5_PATH) status = status_fail(DEM_ERROR_IO, "%s: the name is too long", source);
+    }
+    return give(&o, s, status);
+}
+
+dem_status stripes_publish(const stripes *s, const frames *f, dem_index number)
+{
+    orders o;
+    if (s->n == 0) return DEM_OK;
+    dem_status status = prepare(&o, s, f, number, STRIPE_PUBLISH);
+    for (int k = 0; k < s->n && status == DEM_OK; k++) status = print_path(o.whats[k].other, s, number, k);
+    return give(&o, s, status);
+}
+
+/* ---- frames ---- */
+
+typedef struct appending {
+    const stripes *stripes;
+    const frames *frames;
+    dem_index number;
+} appending;
+
+static dem_status write_stripes(void *context, int array, const void *data)
+{
+    const appending *a = context;
+    const stripes *s = a->stripes;
+    orders o;
+    dem_status status = prepare(&o, s, a->frames, a->number, STRIPE_WRITE);
+    for (int k = 0; k < s->n && status == DEM_OK; k++) {
+        const size_t first = frames_first_byte(a->frames, array, k), end = frames_first_byte(a->frames, array, k + 1);
+        o.whats[k].array = array;
+        o.whats[k].frames.first = (hsize_t)a->frames->n;
+        o.list[k].n_data = end - first;
+        o.list[k].data = (const char *)data + first;
+    }
+    return give(&o, s, status);
+}
+
+dem_status stripes_append(const stripes *s, const frames *f, dem_index number, const dem_simulation *simulation)
+{
+    appending a = {s, f, number};
+    return s->n > 0 ? frames_hand_out(f, simulation, write_stripes, &a) : DEM_OK;
+}
+
+dem_status stripes_map(const stripes *s, const frames *f, dem_index number, const hdf5_file *file, frames_mapped n)
+{
+    const char *slash = strrchr(s->path, '/'), *name = slash != NULL ? slash + 1 : s->path;
+    char(*names)[HDF5_STRIPES_NAME];
+    dem_status status = DEM_OK;
+    if (s->n == 0) return DEM_OK;
+    names = calloc((size_t)s->n, sizeof *names);
+    CHECK_MEMORY(names);
+    for (int k = 0; k < s->n && status == DEM_OK; k++) {
+        char end[64];
+        print_end(end, sizeof end, s, number, k);
+        const int length = stem_of(s) - (int)(name - s->path);
+        const int written = snprintf(names[k], sizeof names[k], "%.*s%s", length, name, end);
+        if (written < 0 || (size_t)written >= sizeof names[k])
+            status = status_fail(DEM_ERROR_IO, "%s: the name of a stripe is too long", s->path);
+    }
+    if (status == DEM_OK) status = frames_map(f, file, n, (const char(*)[HDF5_STRIPES_NAME])names);
+    free(names);
+    return status;
+}
+
+/* ---- removing ---- */
+
+/* What is behind NAME in the name of a stripe. */
+typedef struct ending {
+    long long number; /* 0: of a whole */
+    int stripe, n;
+    bool is_temporary;
+} ending;
+
+/* Takes digits off the beginning of a text; a negative number if there are none, or too many. */
+static long long take_number(const char **text)
+{
+    const size_t n = strspn(*text, "0123456789");
+    const long long number = n > 0 && n <= 9 ? strtoll(*text, NULL, 10) : -1;
+    *text += n;
+    return number;
+}
+
+static bool take(const char **text, const char *word)
+{
+    const bool is_there = strncmp(*text, word, strlen(word)) == 0;
+    if (is_there) *text += strlen(word);
+    return is_there;
+}
+
+/* "1of4.h5" */
+static bool read_stripe(const char *text, ending *out)
+{
+    out->stripe = (int)take_number(&text);
+    if (out->stripe < 1 || !take(&text, "of")) return false;
+    out->n = (int)take_number(&text);
+    if (out->n < out->stripe || !take(&text, ".h5")) return false;
+    out->is_temporary = take(&text, temporary);
+    return *text == '\0';
+}
+
+static bool read_ending(const char *text, ending *out)
+{
+    *out = (ending){0};
+    if (!take(&text, ".")) return false;
+    if (read_stripe(text, out)) return true;
+    const char *begin = text;
+    out->number = take_number(&text);
+    return out->number > 0 && text - begin >= 5 && take(&text, ".") && read_stripe(text, out);
+}
+
+/* Whether a file is to stay. */
+typedef bool keeps(const stripes *s, const ending *e, dem_index above);
+
+static bool keeps_up_to(const stripes *s, const ending *e, dem_index above)
+{
+    (void)s;
+    return !e->is_temporary && e->number <= above;
+}
+
+static bool keeps_whole(const stripes *s, const ending *e, dem_index above)
+{
+    (void)above;
+    return !e->is_temporary && e->number == 0 && e->n == s->n;
+}
+
+/* A file that cannot be read is one that a kill has left. */
+static bool is_stripe(const char *path, const ending *e)
+{
+    hdf5_file file;
+    const dem_status status = e->is_temporary ? DEM_ERROR_IO : hdf5_open_read(&file, path);
+    if (status != DEM_OK) return status == DEM_ERROR_IO;
+    return hdf5_close(&file, hdf5_expect_attribute(&file, "/", STRIPE_MARK, (dem_index)e->number)) == DEM_OK;
+}
+
+/* A folder that cannot be listed is left as it is. */
+static void remove_others(const stripes *s, keeps *stays, dem_index above)
+{
+    const char *slash = strrchr(s->path, '/'), *name = slash != NULL ? slash + 1 : s->path;
+    const int of_folder = (int)(name - s->path);
+    const size_t length = (size_t)(stem_of(s) - of_folder);
+    char path[HDF5_PATH];
+    const struct dirent *entry;
+    ending e;
+    (void)snprintf(path, sizeof path, "%.*s.", of_folder, s->path);
+    DIR *files = opendir(path);
+    while (files != NULL && (entry = readdir(files)) != NULL) {
+        if (strncmp(entry->d_name, name, length) != 0 || !read_ending(entry->d_name + length, &e)) continue;
+        const int n = snprintf(path, sizeof path, "%.*s%s", of_folder, s->path, entry->d_name);
+        if (n > 0 && n < HDF5_PATH && !stays(s, &e, above) && is_stripe(path, &e)) (void)unlink(path);
+    }
+    if (files != NULL) (void)closedir(files);
+}
+
+/* What has failed before is still to be reported. */
+static void prune(const stripes *s, keeps *stays, dem_index above)
+{
+    char message[STATUS_MESSAGE_SIZE];
+    (void)snprintf(message, sizeof message, "%s", dem_status_message());
+    remove_others(s, stays, above);
+    (void)status_repeat(DEM_OK, message);
+}
+
+void stripes_prune(const stripes *s, dem_index above)
+{
+    prune(s, keeps_up_to, above);
+}
+
+void stripes_prune_to_whole(const stripes *s)
+{
+    prune(s, keeps_whole, 0);
+}

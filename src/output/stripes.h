@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The stripes of a run's files (stripe_file.h), which rank 0 has other ranks write: those of the segment with a number,
+ * or of the part that becomes it, NAME.00001.1of4.h5 to NAME.00001.4of4.h5, and those of the whole, number 0,
+ * NAME.1of4.h5 to NAME.4of4.h5. Their names do not change when a part becomes a segment. */
+#ifndef DEM_OUTPUT_STRIPES_H
+#define DEM_OUTPUT_STRIPES_H
+
+#include "output/frames.h"
+
+/** All functions but stripes_prune() do nothing where n is 0. */
+typedef struct stripes {
+    int n;                            /**< stripes; 0: none */
+    const dem_simulation *simulation; /**< whose ranks write */
+    const char *path;                 /**< NAME.vtkhdf */
+} stripes;
+
+/** Makes the files of a number, without frames. Those of number 0 have temporary names.
+ *  \return DEM_ERROR_IO, also if there is a file of such a name */
+dem_status stripes_create(const stripes *s, const frames *f, dem_index number);
+
+/** Writes the arrays of the present state of the simulation as a frame. */
+dem_status stripes_append(const stripes *s, const frames *f, dem_index number, const dem_simulation *simulation);
+
+/** Copies frames of a file that has all rows, be they in stripes or not, behind those that are there. */
+dem_status stripes_copy(const stripes *s, const frames *f, dem_index number, const char *source, hdf5_span span);
+
+/** Syncs the files and reads them back, and gives those of number 0 their names. */
+dem_status stripes_publish(const stripes *s, const frames *f, dem_index number);
+
+/** Lets a file have frames in the files of a number. */
+dem_status stripes_map(const stripes *s, const frames *f, dem_index number, const hdf5_file *file, frames_mapped n);
+
+/** Removes the files of numbers above `above`, and temporary ones, of any number of writers. What cannot be removed
+ *  does no harm. */
+void stripes_prune(const stripes *s, dem_index above);
+
+/** The same where a new whole is there: all but its own. */
+void stripes_prune_to_whole(const stripes *s);
+
+#endif

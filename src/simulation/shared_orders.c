@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rank 0 says how long the order of each rank is, 0: it has none, and then sends what it is about and its data, from
+ * where they are. */
+#include "simulation/shared_orders.h"
+
+#include <stdlib.h>
+
+#include "base/reduce.h"
+#include "base/status.h"
+
+/* What is sent of an order. */
+enum { SIZES, WHAT, DATA, PIECES };
+
+typedef struct sizes {
+    size_t what, data;
+} sizes;
+
+typedef struct passing {
+    const ranks *ranks;
+    sizes *sizes;                  /* [ranks] on rank 0, else [1] of this one */
+    const rank_order **orders;     /* [ranks] on rank 0, NULL: none */
+    ranks_message *full, *nothing; /* [ranks] */
+    void *what, *data;             /* on other ranks */
+} passing;
+
+static dem_status allocate(passing *p)
+{
+    const size_t n = (size_t)p->ranks->size;
+    p->sizes = calloc(n, sizeof *p->sizes);
+    p->orders = calloc(n, sizeof *p->orders);
+    p->full = calloc(n, sizeof *p->full);
+    p->nothing = calloc(n, sizeof *p->nothing);
+    CHECK(p->sizes && p->orders && p->full && p->nothing, DEM_ERROR_MEMORY, "out of memory for orders to %d ranks",
+          p->ranks->size);
+    return DEM_OK;
+}
+
+static void release(const passing *p)
+{
+    free(p->sizes);
+    free((void *)p->orders);
+    free(p->full);
+    free(p->nothing);
+    free(p->what);
+    free(p->data);
+}
+
+/* By rank. */
+static void sort(const passing *p, const rank_order *orders, int n)
+{
+    for (int k = 0; k < n && p->ranks->rank == 0; k++) {
+        p->orders[orders[k].rank] = &orders[k];
+        p->sizes[orders[k].rank] = (sizes){orders[k].size, orders[k].n_data};
+    }
+}
+
+/* A message is only read where it is sent. */
+static ranks_message piece_of(const passing *p, int piece, int other)
+{
+    const bool is_first = p->ranks->rank == 0;
+    sizes *s = &p->sizes[is_first ? other : 0];
+    if (piece == SIZES) return (ranks_message){other, sizeof *s, s};
+    const rank_order *o = p->orders[is_first ? other : 0];
+    const void *what = o != NULL ? o->what : p->what, *data = o != NULL ? o->data : p->data;
+    if (piece == WHAT) return (ranks_message){other, s->what, (void *)what};
+    return (ranks_message){other, s->data, (void *)data};
+}
+
+static void send(const passing *p, int piece)
+{
+    const ranks *r = p->ranks;
+    const int n = r->rank == 0 ? r->size - 1 : 1;
+    for (int k = 0; k < n; k++) {
+        const int other = r->rank == 0 ? k + 1 : 0;
+        p->full[k] = piece_of(p, piece, other);
+        p->nothing[k] = (ranks_message){other, 0, NULL};
+    }
+    r->exchange(r->self, n, r->rank == 0 ? p->full : p->nothing, r->rank == 0 ? p->nothing : p->full);
+}
+
+/* For what comes. */
+static dem_status make_room(passing *p)
+{
+    if (p->ranks->rank == 0) return DEM_OK;
+    p->what = malloc(p->sizes->what + 1);
+    p->data = malloc(p->sizes->data + 1);
+    CHECK(p->what && p->data, DEM_ERROR_MEMORY, "out of memory for %zu bytes of rank 0", p->sizes->data);
+    return DEM_OK;
+}
+
+static dem_status obey(const passing *p)
+{
+    const rank_order *own = p->orders[0];
+    if (p->ranks->rank == 0) return own != NULL ? rank_order_obey(own->what, own->data) : DEM_OK;
+    return p->sizes->what > 0 ? rank_order_obey(p->what, p->data) : DEM_OK;
+}
+
+static dem_status pass(passing *p)
+{
+    send(p, SIZES);
+    TRY(reduce_status(p->ranks, make_room(p), 0.0));
+    send(p, WHAT);
+    send(p, DATA);
+    return reduce_status(p->ranks, obey(p), 0.0);
+}
+
+dem_status shared_orders_pass(const ranks *r, const rank_order *orders, int n)
+{
+    passing p = {.ranks = r};
+    dem_status status = reduce_status(r, allocate(&p), 0.0);
+    if (status == DEM_OK) {
+        sort(&p, orders, n);
+        status = pass(&p);
+    }
+    release(&p);
+    return status;
+}
