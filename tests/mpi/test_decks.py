@@ -3,8 +3,8 @@
 """Every deck on ranks: `test_decks.py MPIRUN DEM_BATCH INPUTS_FOLDER COMPARE [NAMES]`.
 
 All decks of the folder, some of them coarser and all shorter, run on 1, 2, 3, 4 and 7 ranks with 1 and 2 threads each,
-and as many writers as ranks with 2: all data and the last checkpoint are those of one process. Then a run with many impacts goes on from each of its
-checkpoints on another number of ranks."""
+and as many writers as ranks with 2: all data and the last checkpoint are those of one process. Then a run with many
+impacts goes on from each of its checkpoints on another number of ranks."""
 import re
 import shutil
 import subprocess
