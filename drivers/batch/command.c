@@ -79,31 +79,28 @@ static bool parse_outdir(command *c, const char *folder)
     return true;
 }
 
-static bool parse_index(command *c, const char *number)
+/* A number from 1 on, of so many digits at most. */
+static bool parse_count(const command *c, long *out, size_t digits, const char *needs, const char *number)
 {
     const size_t n = number == NULL ? 0 : strspn(number, "0123456789");
-    if (n == 0 || n > 9 || number[n] != '\0' || (c->index = strtol(number, NULL, 10)) < 1)
-        return refuse(c, "'--index' needs the number of a deck, from 1%s%s", number == NULL ? "" : ", got ",
-                      number == NULL ? "" : number);
+    if (n == 0 || n > digits || number[n] != '\0' || (*out = strtol(number, NULL, 10)) < 1)
+        return refuse(c, "%s%s%s", needs, number == NULL ? "" : ", got ", number == NULL ? "" : number);
     return true;
+}
+
+static bool parse_index(command *c, const char *number)
+{
+    return parse_count(c, &c->index, 9, "'--index' needs the number of a deck, from 1", number);
 }
 
 static bool parse_jobs(command *c, const char *number)
 {
-    const size_t n = number == NULL ? 0 : strspn(number, "0123456789");
-    if (n == 0 || n > 4 || number[n] != '\0' || (c->jobs = strtol(number, NULL, 10)) < 1)
-        return refuse(c, "'--jobs' needs a number from 1 to 9999%s%s", number == NULL ? "" : ", got ",
-                      number == NULL ? "" : number);
-    return true;
+    return parse_count(c, &c->jobs, 4, "'--jobs' needs a number from 1 to 9999", number);
 }
 
 static bool parse_writers(command *c, const char *number)
 {
-    const size_t n = number == NULL ? 0 : strspn(number, "0123456789");
-    if (n == 0 || n > 6 || number[n] != '\0' || (c->writers = strtol(number, NULL, 10)) < 1)
-        return refuse(c, "'--writers' needs a number of ranks, from 1%s%s", number == NULL ? "" : ", got ",
-                      number == NULL ? "" : number);
-    return true;
+    return parse_count(c, &c->writers, 6, "'--writers' needs a number of ranks, from 1", number);
 }
 
 static bool parse_seconds(const command *c, double *out, const char *option, const char *text)

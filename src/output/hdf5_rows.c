@@ -70,22 +70,27 @@ static int measure(hid_t dataset, hsize_t extent[HDF5_MAX_RANK])
     return fits ? rank : 0;
 }
 
-/* The first dimension may grow without limit; the others are fixed. */
-dem_status hdf5_create(const hdf5_file *file, const hdf5_rows *rows)
+/* A new dataset, if all for it is ready. Space and layout are closed. */
+static dem_status make_dataset(const hdf5_file *file, const hdf5_rows *rows, hid_t space, hid_t layout, bool is_ready)
 {
-    const hsize_t extent[HDF5_MAX_RANK] = {0, rows->tail[0], rows->tail[1]};
-    /* Only rows can be added. */
-    const hsize_t most[HDF5_MAX_RANK] = {H5S_UNLIMITED, rows->tail[0], rows->tail[1]};
-    const hid_t space = H5Screate_simple(rows->rank, extent, most);
-    const hid_t links = hdf5_parents(), layout = make_layout(rows);
+    const hid_t links = hdf5_parents(), type = hdf5_file_type(rows->kind);
     const hid_t dataset =
-        H5Dcreate2(file->id, rows->name, hdf5_file_type(rows->kind), space, links, layout, H5P_DEFAULT);
+        is_ready ? H5Dcreate2(file->id, rows->name, type, space, links, layout, H5P_DEFAULT) : H5I_INVALID_HID;
     const dem_status status = dataset < 0 ? hdf5_fail(file, rows->name, "cannot be created") : DEM_OK;
     if (dataset >= 0) (void)H5Dclose(dataset);
     if (layout >= 0) (void)H5Pclose(layout);
     (void)H5Pclose(links);
     (void)H5Sclose(space);
     return status;
+}
+
+/* The first dimension may grow without limit; the others are fixed. */
+dem_status hdf5_create(const hdf5_file *file, const hdf5_rows *rows)
+{
+    const hsize_t extent[HDF5_MAX_RANK] = {0, rows->tail[0], rows->tail[1]};
+    /* Only rows can be added. */
+    const hsize_t most[HDF5_MAX_RANK] = {H5S_UNLIMITED, rows->tail[0], rows->tail[1]};
+    return make_dataset(file, rows, H5Screate_simple(rows->rank, extent, most), make_layout(rows), true);
 }
 
 /* ---- rows in other files ---- */
@@ -101,19 +106,11 @@ static herr_t add_stripes(hid_t layout, const hdf5_rows *rows, const hsize_t *ex
 dem_status hdf5_map(const hdf5_file *file, const hdf5_rows *rows, hsize_t count, const hdf5_stripe *stripes, int n)
 {
     const hsize_t extent[HDF5_MAX_RANK] = {count, rows->tail[0], rows->tail[1]};
-    const hid_t type = hdf5_file_type(rows->kind), layout = hdf5_stripes_layout(type), links = hdf5_parents();
     const hsize_t most[HDF5_MAX_RANK] = {H5S_UNLIMITED, rows->tail[0], rows->tail[1]};
     const hid_t space = H5Screate_simple(rows->rank, extent, n > 0 && stripes->grows ? most : NULL);
-    hid_t dataset = H5I_INVALID_HID;
+    const hid_t layout = hdf5_stripes_layout(hdf5_file_type(rows->kind));
     const bool is_free = !hdf5_has(file, rows->name) || H5Ldelete(file->id, rows->name, H5P_DEFAULT) >= 0;
-    if (is_free && add_stripes(layout, rows, extent, stripes, n) >= 0)
-        dataset = H5Dcreate2(file->id, rows->name, type, space, links, layout, H5P_DEFAULT);
-    const dem_status status = dataset < 0 ? hdf5_fail(file, rows->name, "cannot be created") : DEM_OK;
-    if (dataset >= 0) (void)H5Dclose(dataset);
-    if (layout >= 0) (void)H5Pclose(layout);
-    (void)H5Pclose(links);
-    (void)H5Sclose(space);
-    return status;
+    return make_dataset(file, rows, space, layout, is_free && add_stripes(layout, rows, extent, stripes, n) >= 0);
 }
 
 /* Numbers of a row. */

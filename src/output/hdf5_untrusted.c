@@ -403,9 +403,10 @@ dem_status hdf5_untrusted_read(const hdf5_file *file, const char *name, hdf5_kin
     int n = 0;
     dem_status status = DEM_OK;
     if (rows.count == 0) return DEM_OK;
+    if (!file->takes_stripes) return read_here(file, name, kind, rows, data);
     const hid_t dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
     if (dataset < 0) return hdf5_fail(file, name, "is not a readable dataset");
-    const bool is_striped = file->takes_stripes && hdf5_stripes_count(dataset) > 0;
+    const bool is_striped = hdf5_stripes_count(dataset) > 0;
     stripe_rows wanted = {.rows = rows, .data = data};
     hdf5_stripe *list = NULL;
     if (is_striped) status = hdf5_stripes_list(dataset, name, &list, &n);

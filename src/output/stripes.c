@@ -49,17 +49,17 @@ static dem_status print_path(char out[HDF5_PATH], const stripes *s, dem_index nu
 
 /* To all writers at once. */
 typedef struct orders {
-    stripe_order *whats; /* [n] */
-    rank_order *list;    /* [n] */
+    stripe_order *contents; /* [n] */
+    rank_order *list;       /* [n] */
 } orders;
 
 static dem_status prepare(orders *o, const stripes *s, const frames *f, dem_index number, stripe_order_kind kind)
 {
     const int ranks = rank_order_ranks(s->simulation);
-    *o = (orders){calloc((size_t)s->n, sizeof *o->whats), calloc((size_t)s->n, sizeof *o->list)};
-    CHECK(o->whats != NULL && o->list != NULL, DEM_ERROR_MEMORY, "out of memory for %d stripes", s->n);
+    *o = (orders){calloc((size_t)s->n, sizeof *o->contents), calloc((size_t)s->n, sizeof *o->list)};
+    CHECK(o->contents != NULL && o->list != NULL, DEM_ERROR_MEMORY, "out of memory for %d stripes", s->n);
     for (int k = 0; k < s->n; k++) {
-        stripe_order *what = &o->whats[k];
+        stripe_order *what = &o->contents[k];
         what->kind = kind;
         what->whole = *f;
         what->whole.scratch = what->whole.stress = what->whole.pressure = NULL;
@@ -75,7 +75,7 @@ static dem_status prepare(orders *o, const stripes *s, const frames *f, dem_inde
 static dem_status give(const orders *o, const stripes *s, dem_status status)
 {
     if (status == DEM_OK) status = rank_order_give(s->simulation, o->list, s->n);
-    free(o->whats);
+    free(o->contents);
     free(o->list);
     return status;
 }
@@ -105,8 +105,8 @@ dem_status stripes_copy(const stripes *s, const frames *f, dem_index number, con
     if (s->n == 0 || span.count == 0) return DEM_OK;
     dem_status status = prepare(&o, s, f, number, STRIPE_COPY);
     for (int k = 0; k < s->n && status == DEM_OK; k++) {
-        o.whats[k].frames = span;
-        const int n = snprintf(o.whats[k].other, HDF5_PATH, "%s", source);
+        o.contents[k].frames = span;
+        const int n = snprintf(o.contents[k].other, HDF5_PATH, "%s", source);
         if (n < 0 || n >= HDF5_PATH) status = status_fail(DEM_ERROR_IO, "%s: the name is too long", source);
     }
     return give(&o, s, status);
@@ -117,7 +117,7 @@ dem_status stripes_publish(const stripes *s, const frames *f, dem_index number)
     orders o;
     if (s->n == 0) return DEM_OK;
     dem_status status = prepare(&o, s, f, number, STRIPE_PUBLISH);
-    for (int k = 0; k < s->n && status == DEM_OK; k++) status = print_path(o.whats[k].other, s, number, k);
+    for (int k = 0; k < s->n && status == DEM_OK; k++) status = print_path(o.contents[k].other, s, number, k);
     return give(&o, s, status);
 }
 
@@ -137,8 +137,8 @@ static dem_status write_stripes(void *context, int array, const void *data)
     dem_status status = prepare(&o, s, a->frames, a->number, STRIPE_WRITE);
     for (int k = 0; k < s->n && status == DEM_OK; k++) {
         const size_t first = frames_first_byte(a->frames, array, k), end = frames_first_byte(a->frames, array, k + 1);
-        o.whats[k].array = array;
-        o.whats[k].frames.first = (hsize_t)a->frames->n;
+        o.contents[k].array = array;
+        o.contents[k].frames.first = (hsize_t)a->frames->n;
         o.list[k].n_data = end - first;
         o.list[k].data = (const char *)data + first;
     }

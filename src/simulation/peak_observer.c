@@ -12,24 +12,27 @@
 #include "base/struct_size.h"
 #include "simulation/led_run.h"
 
+typedef dem_status bring(const dem_simulation *whole, dem_peaks *peaks);
+
 /* Copies from the ranks that have them, as the program asks for them, which knows nothing of ranks: of nodes, in the
  * place of those of springs, or the other way round. */
-static const dem_peaks *with_nodes(const dem_peaks *peaks)
+static const dem_peaks *brought(const dem_peaks *peaks, bool is_there, bring *of_one_kind)
 {
     dem_peaks *p = (dem_peaks *)(uintptr_t)peaks;
-    if (!p->are_away || p->nodes != NULL) return p;
+    if (!p->are_away || is_there) return p;
     peaks_give_up(p);
-    if (led_run_bring_node_peaks(p->away, p) != DEM_OK) peaks_give_up(p);
+    if (of_one_kind(p->away, p) != DEM_OK) peaks_give_up(p);
     return p;
+}
+
+static const dem_peaks *with_nodes(const dem_peaks *peaks)
+{
+    return brought(peaks, peaks->nodes != NULL, led_run_bring_node_peaks);
 }
 
 static const dem_peaks *with_springs(const dem_peaks *peaks)
 {
-    dem_peaks *p = (dem_peaks *)(uintptr_t)peaks;
-    if (!p->are_away || p->springs != NULL) return p;
-    peaks_give_up(p);
-    if (led_run_bring_spring_peaks(p->away, p) != DEM_OK) peaks_give_up(p);
-    return p;
+    return brought(peaks, peaks->springs != NULL, led_run_bring_spring_peaks);
 }
 
 /* Those whose number is a multiple of `every` are looked at. */
