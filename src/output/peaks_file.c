@@ -23,7 +23,7 @@ static dem_status write_nodes(const hdf5_file *file, const dem_node_peak *peaks,
     for (dem_index i = 0; i < f->n_nodes; i++) f->scratch[i] = peaks[i].t;
     TRY(frames_write_constant(f, file, &time, f->scratch));
     for (dem_index i = 0; i < f->n_nodes; i++) memcpy(f->stress + 3 * i, peaks[i].stress, sizeof peaks[i].stress);
-    frames_spread_stress(f->scratch, f->n_nodes, f->stress);
+    frame_arrays_spread_stress(f->scratch, f->n_nodes, f->stress);
     return frames_write_constant(f, file, &stress, f->scratch);
 }
 

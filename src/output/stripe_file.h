@@ -5,7 +5,7 @@
 #ifndef DEM_OUTPUT_STRIPE_FILE_H
 #define DEM_OUTPUT_STRIPE_FILE_H
 
-#include "output/frames.h"
+#include "output/frame_stripes.h"
 
 /** The attribute of its root with that number. */
 #define STRIPE_MARK "stripe_of"

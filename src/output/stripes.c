@@ -136,7 +136,8 @@ static dem_status write_stripes(void *context, int array, const void *data)
     orders o;
     dem_status status = prepare(&o, s, a->frames, a->number, STRIPE_WRITE);
     for (int k = 0; k < s->n && status == DEM_OK; k++) {
-        const size_t first = frames_first_byte(a->frames, array, k), end = frames_first_byte(a->frames, array, k + 1);
+        const size_t first = frame_stripes_first_byte(a->frames, array, k),
+                     end = frame_stripes_first_byte(a->frames, array, k + 1);
         o.contents[k].array = array;
         o.contents[k].frames.first = (hsize_t)a->frames->n;
         o.list[k].n_data = end - first;
@@ -148,10 +149,11 @@ static dem_status write_stripes(void *context, int array, const void *data)
 dem_status stripes_append(const stripes *s, const frames *f, dem_index number, const dem_simulation *simulation)
 {
     appending a = {s, f, number};
-    return s->n > 0 ? frames_hand_out(f, simulation, write_stripes, &a) : DEM_OK;
+    return s->n > 0 ? frame_arrays_hand_out(f, simulation, write_stripes, &a) : DEM_OK;
 }
 
-dem_status stripes_map(const stripes *s, const frames *f, dem_index number, const hdf5_file *file, frames_mapped n)
+dem_status stripes_map(const stripes *s, const frames *f, dem_index number, const hdf5_file *file,
+                       frame_stripes_mapped n)
 {
     const char *slash = strrchr(s->path, '/'), *name = slash != NULL ? slash + 1 : s->path;
     char(*names)[HDF5_STRIPES_NAME];
@@ -167,7 +169,7 @@ dem_status stripes_map(const stripes *s, const frames *f, dem_index number, cons
         if (written < 0 || (size_t)written >= sizeof names[k])
             status = status_fail(DEM_ERROR_IO, "%s: the name of a stripe is too long", s->path);
     }
-    if (status == DEM_OK) status = frames_map(f, file, n, (const char(*)[HDF5_STRIPES_NAME])names);
+    if (status == DEM_OK) status = frame_stripes_map(f, file, n, (const char(*)[HDF5_STRIPES_NAME])names);
     free(names);
     return status;
 }

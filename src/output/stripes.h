@@ -5,7 +5,7 @@
 #ifndef DEM_OUTPUT_STRIPES_H
 #define DEM_OUTPUT_STRIPES_H
 
-#include "output/frames.h"
+#include "output/frame_stripes.h"
 
 /** All functions but stripes_prune() do nothing where n is 0. */
 typedef struct stripes {
@@ -28,7 +28,8 @@ dem_status stripes_copy(const stripes *s, const frames *f, dem_index number, con
 dem_status stripes_publish(const stripes *s, const frames *f, dem_index number);
 
 /** Lets a file have frames in the files of a number. */
-dem_status stripes_map(const stripes *s, const frames *f, dem_index number, const hdf5_file *file, frames_mapped n);
+dem_status stripes_map(const stripes *s, const frames *f, dem_index number, const hdf5_file *file,
+                       frame_stripes_mapped n);
 
 /** Removes the files of numbers above `above`, and temporary ones, of any number of writers. What cannot be removed
  *  does no harm. */

@@ -128,7 +128,7 @@ static dem_status write_extract(const segments *s, const trajectory_rows *r, con
 {
     TRY(trajectory_rows_create(r, file));
     if (e->source != NULL) TRY(copy_from(s, r, e->source, file));
-    const frames_mapped mapped = {!e->has_first, e->has_first ? s->spans[ROWS_FRAMES].count : 0};
+    const frame_stripes_mapped mapped = {!e->has_first, e->has_first ? s->spans[ROWS_FRAMES].count : 0};
     TRY(stripes_map(&r->stripes, &r->frames, e->stripes, file, mapped));
     return e->number > 0 ? mark_segment(file, e->number) : DEM_OK;
 }
@@ -428,7 +428,7 @@ static dem_status write_whole(segments *s, const trajectory_rows *r, const hdf5_
         TRY(hdf5_open_read(&from, source_of(s, k)));
         TRY(hdf5_close(&from, append_all(s, r, &from, file)));
     }
-    TRY(stripes_map(&r->stripes, &r->frames, 0, file, (frames_mapped){true, 0}));
+    TRY(stripes_map(&r->stripes, &r->frames, 0, file, (frame_stripes_mapped){true, 0}));
     return trajectory_rows_write_peaks(r, file, trajectory_rows_total(r, ROWS_FRAMES));
 }
 
