@@ -48,7 +48,8 @@ static void send_to_root(const collection *c, bool counts)
 
 static bool owns(const gather_items *items, dem_index i)
 {
-    return items->is_own[items->ends != NULL ? domain_lowest(items->ends + 2 * i, 2) : i] != 0;
+    const int n = items->n_corners;
+    return items->is_own[n > 0 ? domain_lowest(items->corners + n * i, n) : i] != 0;
 }
 
 /* \param end  of the piece, by numbers of the whole  \return behind its last item here */

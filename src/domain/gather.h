@@ -1,28 +1,34 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rows of all nodes or springs on rank 0, from the ranks that own them. */
+/* Rows of all nodes, springs or triangles on rank 0, from the ranks that own them. */
 #ifndef DEM_DOMAIN_GATHER_H
 #define DEM_DOMAIN_GATHER_H
 
 #include "base/ranks.h"
 #include "domain/domain.h"
 
-/** The nodes or springs that a rank has. */
+/** The nodes, springs or triangles that a rank has. */
 typedef struct gather_items {
     dem_index n, n_whole;        /* here, and in the whole lattice */
     const dem_index *number;     /* [n] in the whole lattice, ascending */
     const unsigned char *is_own; /* [nodes] 1: owned here, as by no other rank */
-    const dem_index *ends;       /* [n][2] of springs, which belong to the lower one; NULL: of nodes */
+    int n_corners;               /* nodes of a spring or triangle, which belongs to the lowest one; 0: it is a node */
+    const dem_index *corners;    /* [n][n_corners] */
 } gather_items;
 
 /** Those of a domain.  \param l  its lattice */
 static inline gather_items gather_nodes(const domain *d)
 {
-    return (gather_items){d->n_nodes, d->n_whole, d->number, d->is_own, NULL};
+    return (gather_items){d->n_nodes, d->n_whole, d->number, d->is_own, 0, NULL};
 }
 
 static inline gather_items gather_springs(const domain *d, const dem_lattice *l)
 {
-    return (gather_items){l->n_springs, d->n_springs, d->spring, d->is_own, l->ends};
+    return (gather_items){l->n_springs, d->n_springs, d->spring, d->is_own, 2, l->ends};
+}
+
+static inline gather_items gather_triangles(const domain *d, const dem_lattice *l)
+{
+    return (gather_items){l->n_triangles, d->n_triangles, d->triangle, d->is_own, 3, l->triangles};
 }
 
 /** Puts what each rank has of its own items in an array into that of rank 0, so many at a time that messages take

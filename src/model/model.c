@@ -195,6 +195,7 @@ void dem_model_destroy(dem_model *model)
     if (model->domain != NULL) domain_free(model->domain);
     free(model->domain);
     free(model->inverse_mass);
+    dem_model_destroy(model->part);
     if (model->ends_ranks) model->ranks->end(model->ranks->self);
     free(model);
 }

@@ -16,14 +16,21 @@
 #include "model/touching_bodies.h"
 #include "obstacle/obstacle.h"
 
+/** Gathers an array of the lattice from the parts that ranks have (whole_of_parts_gather()), on rank 0, which has the
+ *  others take part in it.
+ *  \param array  its number in lattice_arrays */
+typedef dem_status model_array_asker(const dem_model *whole, int array, void *items);
+
 struct dem_model {
-    const ranks *ranks;        /* that share it */
-    bool ends_ranks;           /* whether their table ends with the model */
-    domain *domain;            /* of this one; NULL: all nodes are here */
-    touching_bodies *touching; /* of the domain, if bodies may touch each other in it; else NULL */
-    dem_lattice lattice;       /* flags, body, position and velocity always filled; */
-    dem_lattice borrowed;      /* those of its arrays that are the caller's; NULL: they are of the model */
-    bool lacks_rows;           /* whether what is in rows here has been given up */
+    const ranks *ranks;           /* that share it */
+    bool ends_ranks;              /* whether their table ends with the model */
+    domain *domain;               /* of this one; NULL: all nodes are here */
+    dem_model *part;              /* of a whole that has no arrays: what this rank has of it. NULL: arrays are here */
+    model_array_asker *ask_array; /* likewise, for those of the whole */
+    touching_bodies *touching;    /* of the domain, if bodies may touch each other in it; else NULL */
+    dem_lattice lattice;          /* flags, body, position and velocity always filled; */
+    dem_lattice borrowed;         /* those of its arrays that are the caller's; NULL: they are of the model */
+    bool lacks_rows;              /* whether what is in rows here has been given up */
     springs springs;
     csr_view *csr; /* of the springs, for programs */
     triangles triangles;

@@ -5,6 +5,7 @@
 #include "output/frame_arrays.h"
 
 #include "base/status.h"
+#include "lattice/lattice_source.h"
 #include "output/vtk_grid.h"
 
 #include <stdlib.h>
@@ -19,7 +20,6 @@ enum { ANY_STRESS = DEM_FIELD_STRESS | DEM_FIELD_VON_MISES | DEM_FIELD_PRINCIPAL
 /* What is looked at while a frame is written. */
 typedef struct view {
     const dem_simulation *simulation;
-    const dem_lattice *lattice;
     dem_state state;
 } view;
 
@@ -51,8 +51,12 @@ static dem_status fill_points(const frames *f, const view *v)
 /* From the rest position, which need not be where the motion started. */
 static dem_status fill_displacement(const frames *f, const view *v)
 {
-    spread(f->scratch, f->n_nodes, v->state.x, v->lattice->x);
-    return DEM_OK;
+    const lattice_source lattice = lattice_source_of(dem_simulation_model(v->simulation));
+    source_array x;
+    const dem_status status = lattice_source_open(&x, &lattice, offsetof(dem_lattice, x));
+    if (status == DEM_OK) spread(f->scratch, f->n_nodes, v->state.x, x.items);
+    lattice_source_close(&x);
+    return status;
 }
 
 static dem_status fill_velocity(const frames *f, const view *v)
@@ -256,8 +260,7 @@ dem_status frame_arrays_make_scratch(frames *f)
 dem_status frame_arrays_hand_out(const frames *f, const dem_simulation *simulation, frame_arrays_taker *take,
                                  void *context)
 {
-    const dem_lattice *lattice = dem_model_lattice(dem_simulation_model(simulation));
-    view v = {simulation, lattice, {.struct_size = sizeof v.state}};
+    view v = {simulation, {.struct_size = sizeof v.state}};
     TRY(dem_simulation_state(simulation, &v.state));
     /* Stresses are computed once for all arrays made of them. */
     if (f->fields & ANY_STRESS) TRY(dem_simulation_stress(simulation, f->stress));

@@ -128,18 +128,27 @@ static dem_status create_rows(const frames *f, const hdf5_file *file)
 }
 
 /* The number and the body of each node, for readers that select or reorder points. */
-static dem_status write_nodes(const frames *f, const hdf5_file *file, const dem_lattice *lattice)
+static dem_status write_numbers(const frames *f, const hdf5_file *file)
 {
     const size_t n = (size_t)f->n_nodes;
-    const hdf5_rows body = {GRID "PointData/body", HDF5_I32, 1, {0}, 0, f->deflate};
     const hdf5_rows number = {GRID "PointData/id", HDF5_I64, 1, {0}, 0, f->deflate};
     dem_index *id = malloc(n * sizeof *id);
     CHECK_MEMORY(id);
     for (dem_index i = 0; i < f->n_nodes; i++) id[i] = i;
     const dem_status status = hdf5_write(file, number, n, id);
     free(id);
-    TRY(status);
-    return hdf5_write(file, body, n, lattice->body);
+    return status;
+}
+
+static dem_status write_nodes(const frames *f, const hdf5_file *file, const lattice_source *lattice)
+{
+    const hdf5_rows rows = {GRID "PointData/body", HDF5_I32, 1, {0}, 0, f->deflate};
+    source_array body;
+    TRY(write_numbers(f, file));
+    dem_status status = lattice_source_open(&body, lattice, offsetof(dem_lattice, body));
+    if (status == DEM_OK) status = hdf5_write(file, rows, (hsize_t)f->n_nodes, body.items);
+    lattice_source_close(&body);
+    return status;
 }
 
 /* What the grid of triangles has from that of springs. */
@@ -165,20 +174,32 @@ static dem_status link_bodies(const hdf5_file *file)
     return DEM_OK;
 }
 
-/* The triangles as cells. */
-static dem_status create_bodies(const frames *f, const hdf5_file *file, const dem_lattice *lattice)
+/* \param member  offset of the cells' corners in a lattice */
+static dem_status write_grid(const frames *f, const hdf5_file *file, grid g, const lattice_source *lattice,
+                             size_t member)
 {
-    const grid g = {FRAMES_BODIES, f->n_nodes, f->n_triangles, 3, lattice->triangles};
+    source_array corners;
+    dem_status status = lattice_source_open(&corners, lattice, member);
+    g.corners = corners.items;
+    if (status == DEM_OK) status = vtk_grid_write(file, &g, f->deflate);
+    lattice_source_close(&corners);
+    return status;
+}
+
+/* The triangles as cells. */
+static dem_status create_bodies(const frames *f, const hdf5_file *file, const lattice_source *lattice)
+{
+    const grid g = {FRAMES_BODIES, f->n_nodes, f->n_triangles, 3, NULL};
     if (f->n_triangles == 0) return DEM_OK;
-    TRY(vtk_grid_write(file, &g, f->deflate));
+    TRY(write_grid(f, file, g, lattice, offsetof(dem_lattice, triangles)));
     return link_bodies(file);
 }
 
 /* The grids, without their points: these move, and are an array of the frames. */
-dem_status frames_create(const frames *f, const hdf5_file *file, const dem_lattice *lattice)
+dem_status frames_create(const frames *f, const hdf5_file *file, const lattice_source *lattice)
 {
-    const grid g = {"/VTKHDF", f->n_nodes, f->n_springs, 2, lattice->ends};
-    TRY(vtk_grid_write(file, &g, f->deflate));
+    const grid g = {"/VTKHDF", f->n_nodes, f->n_springs, 2, NULL};
+    TRY(write_grid(f, file, g, lattice, offsetof(dem_lattice, ends)));
     TRY(create_bodies(f, file, lattice));
     TRY(write_nodes(f, file, lattice));
     TRY(create_offsets(f, file));

@@ -4,6 +4,7 @@
 #ifndef DEM_OUTPUT_FRAMES_H
 #define DEM_OUTPUT_FRAMES_H
 
+#include "lattice/lattice_source.h"
 #include "output/frame_arrays.h"
 
 /** The dataset of the first rows of frames in the table of fragments, and behind them of the number of its rows. */
@@ -22,7 +23,7 @@ dem_status frames_init(frames *out, const dem_model *model, const dem_trajectory
 void frames_free(frames *f);
 
 /** Makes the group with the grid and no frame. */
-dem_status frames_create(const frames *f, const hdf5_file *file, const dem_lattice *lattice);
+dem_status frames_create(const frames *f, const hdf5_file *file, const lattice_source *lattice);
 
 /** An upper bound of the bytes that frames_append() adds. */
 hsize_t frames_bytes(const frames *f);

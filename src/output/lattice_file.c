@@ -328,36 +328,37 @@ static dem_status write_array(const hdf5_file *file, enum array a, int deflate, 
 }
 
 /* A byte for each node, if one is of a rigid body. */
-static dem_status write_rigid(const hdf5_file *file, const dem_lattice *lattice, int deflate, unsigned char *rigid)
+static dem_status write_rigid(const hdf5_file *file, const unsigned char *flags, dem_index n, int deflate,
+                              unsigned char *rigid)
 {
     bool some = false;
-    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+    for (dem_index i = 0; i < n; i++) {
         rigid[i] = 0;
         for (int k = 1; k < N_RIGID; k++)
-            if ((lattice->flags[i] & rigid_flags[k]) == rigid_flags[k]) rigid[i] = (unsigned char)k;
+            if ((flags[i] & rigid_flags[k]) == rigid_flags[k]) rigid[i] = (unsigned char)k;
         some = some || rigid[i] != 0;
     }
-    return some ? write_array(file, RIGID, deflate, lattice->n_nodes, rigid) : DEM_OK;
+    return some ? write_array(file, RIGID, deflate, n, rigid) : DEM_OK;
 }
 
 /* Flags are stored as a byte for each node that is fixed or not, another for rigid bodies, and the list of nodes that
  * may touch. */
-static dem_status write_flags(const hdf5_file *file, const dem_lattice *lattice, int deflate)
+static dem_status write_flags(const hdf5_file *file, const unsigned char *flags, dem_index n, int deflate)
 {
     dem_status status = DEM_ERROR_MEMORY;
     dem_index n_contacts = 0;
-    unsigned char *fixed = malloc((size_t)lattice->n_nodes);
-    dem_index *contacts = malloc((size_t)lattice->n_nodes * sizeof *contacts);
+    unsigned char *fixed = malloc((size_t)n);
+    dem_index *contacts = malloc((size_t)n * sizeof *contacts);
     if (fixed == NULL || contacts == NULL) {
         (void)status_fail(status, "out of memory");
         goto out;
     }
-    for (dem_index i = 0; i < lattice->n_nodes; i++) {
-        fixed[i] = (lattice->flags[i] & DEM_NODE_FIXED) != 0;
-        if (lattice->flags[i] & DEM_NODE_CONTACT) contacts[n_contacts++] = i;
+    for (dem_index i = 0; i < n; i++) {
+        fixed[i] = (flags[i] & DEM_NODE_FIXED) != 0;
+        if (flags[i] & DEM_NODE_CONTACT) contacts[n_contacts++] = i;
     }
-    status = write_array(file, FIXED, deflate, lattice->n_nodes, fixed);
-    if (status == DEM_OK) status = write_rigid(file, lattice, deflate, fixed);
+    status = write_array(file, FIXED, deflate, n, fixed);
+    if (status == DEM_OK) status = write_rigid(file, flags, n, deflate, fixed);
     if (status == DEM_OK) status = write_array(file, CONTACT_NODES, deflate, n_contacts, contacts);
 out:
     free(contacts);
@@ -365,30 +366,53 @@ out:
     return status;
 }
 
-/* The arrays in the order of the table; flags last, since they become several datasets. */
-dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice, int deflate)
+/* An array that is a dataset as it is. */
+static const struct written {
+    enum array array;
+    size_t member; /* its offset in a dem_lattice */
+} written[] = {
+    {X, offsetof(dem_lattice, x)},
+    {MASS, offsetof(dem_lattice, mass)},
+    {ENDS, offsetof(dem_lattice, ends)},
+    {REST_LENGTH, offsetof(dem_lattice, rest_length)},
+    {STIFFNESS, offsetof(dem_lattice, stiffness)},
+    {VISCOSITY, offsetof(dem_lattice, viscosity)},
+    {CRITICAL_STRETCH, offsetof(dem_lattice, critical_stretch)},
+    {CORNERS, offsetof(dem_lattice, triangles)},
+    {GUARD, offsetof(dem_lattice, guard)},
+    {AREA_STIFFNESS, offsetof(dem_lattice, area_stiffness)},
+    {THICKNESS, offsetof(dem_lattice, thickness)},
+    {MODULUS, offsetof(dem_lattice, modulus)},
+    {STRENGTH, offsetof(dem_lattice, strength)},
+    {SOFTENING, offsetof(dem_lattice, softening)},
+    {COMPRESSIVE_STRENGTH, offsetof(dem_lattice, compressive_strength)},
+    {CONFINEMENT, offsetof(dem_lattice, confinement)},
+    {OWN_STRESS, offsetof(dem_lattice, own_stress)},
+    {COUPLING, offsetof(dem_lattice, coupling)},
+    {BODY, offsetof(dem_lattice, body)},
+    {POSITION, offsetof(dem_lattice, position)},
+    {VELOCITY, offsetof(dem_lattice, velocity)},
+};
+
+static dem_status write_member(const hdf5_file *file, const struct written *w, const lattice_source *from, int deflate)
 {
-    const dem_index n = lattice->n_nodes, m = lattice->n_springs, t = lattice->n_triangles;
-    TRY(write_array(file, X, deflate, n, lattice->x));
-    TRY(write_array(file, MASS, deflate, n, lattice->mass));
-    TRY(write_array(file, ENDS, deflate, m, lattice->ends));
-    TRY(write_array(file, REST_LENGTH, deflate, m, lattice->rest_length));
-    TRY(write_array(file, STIFFNESS, deflate, m, lattice->stiffness));
-    TRY(write_array(file, VISCOSITY, deflate, m, lattice->viscosity));
-    TRY(write_array(file, CRITICAL_STRETCH, deflate, m, lattice->critical_stretch));
-    TRY(write_array(file, CORNERS, deflate, t, lattice->triangles));
-    TRY(write_array(file, GUARD, deflate, t, lattice->guard));
-    TRY(write_array(file, AREA_STIFFNESS, deflate, t, lattice->area_stiffness));
-    TRY(write_array(file, THICKNESS, deflate, t, lattice->thickness));
-    TRY(write_array(file, MODULUS, deflate, t, lattice->modulus));
-    TRY(write_array(file, STRENGTH, deflate, t, lattice->strength));
-    TRY(write_array(file, SOFTENING, deflate, t, lattice->softening));
-    TRY(write_array(file, COMPRESSIVE_STRENGTH, deflate, t, lattice->compressive_strength));
-    TRY(write_array(file, CONFINEMENT, deflate, t, lattice->confinement));
-    TRY(write_array(file, OWN_STRESS, deflate, t, lattice->own_stress));
-    TRY(write_array(file, COUPLING, deflate, t, lattice->coupling));
-    TRY(write_array(file, BODY, deflate, n, lattice->body));
-    TRY(write_array(file, POSITION, deflate, n, lattice->position));
-    TRY(write_array(file, VELOCITY, deflate, n, lattice->velocity));
-    return lattice->flags != NULL ? write_flags(file, lattice, deflate) : DEM_OK;
+    const dem_lattice *l = from->lattice;
+    const dem_index counts[] = {[NODES] = l->n_nodes, [SPRINGS] = l->n_springs, [TRIANGLES] = l->n_triangles};
+    source_array a;
+    dem_status status = lattice_source_open(&a, from, w->member);
+    if (status == DEM_OK) status = write_array(file, w->array, deflate, counts[datasets[w->array].of], a.items);
+    lattice_source_close(&a);
+    return status;
+}
+
+/* Flags last, since they become several datasets. */
+dem_status lattice_file_write(const hdf5_file *file, const lattice_source *from, int deflate)
+{
+    source_array flags;
+    for (size_t k = 0; k < sizeof written / sizeof *written; k++) TRY(write_member(file, &written[k], from, deflate));
+    dem_status status = lattice_source_open(&flags, from, offsetof(dem_lattice, flags));
+    if (status == DEM_OK && flags.items != NULL)
+        status = write_flags(file, flags.items, from->lattice->n_nodes, deflate);
+    lattice_source_close(&flags);
+    return status;
 }

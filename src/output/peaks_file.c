@@ -65,7 +65,7 @@ static dem_status write_node_list(const hdf5_file *file, const peaks_report *r, 
     const dem_index n = dem_peaks_most_stressed_nodes(r->peaks, r->most, list);
     const dem_node_peak *peaks = dem_peaks_nodes(r->peaks);
     TRY(write_numbers(file, "/most_stressed/nodes/node", n, list));
-    for (dem_index k = 0; k < n; k++) memcpy(column + 2 * k, r->lattice->x + 2 * list[k], 2 * sizeof *column);
+    TRY(lattice_source_pick(&r->lattice, offsetof(dem_lattice, x), list, n, column));
     TRY(write_column(file, "/most_stressed/nodes/x", n, 2, column));
     for (dem_index k = 0; k < n; k++) column[k] = peaks[list[k]].t;
     TRY(write_column(file, "/most_stressed/nodes/t", n, 1, column));
@@ -75,31 +75,50 @@ static dem_status write_node_list(const hdf5_file *file, const peaks_report *r, 
     return write_column(file, "/most_stressed/nodes/stress", n, 3, column);
 }
 
-/* The place of a spring is its middle at rest. Its force is the stiffness times the strain, computed in place. */
+/* The place of a spring is its middle at rest. */
+static dem_status find_middles(const peaks_report *r, const dem_index *list, dem_index n, double *middle)
+{
+    dem_index *ends = malloc(2 * (size_t)(n + 1) * sizeof *ends);
+    double *x = malloc(4 * (size_t)(n + 1) * sizeof *x);
+    dem_status status = ends != NULL && x != NULL ? DEM_OK : status_fail(DEM_ERROR_MEMORY, "out of memory");
+    if (status == DEM_OK) status = lattice_source_pick(&r->lattice, offsetof(dem_lattice, ends), list, n, ends);
+    if (status == DEM_OK) status = lattice_source_pick(&r->lattice, offsetof(dem_lattice, x), ends, 2 * n, x);
+    for (dem_index k = 0; k < 2 * n && status == DEM_OK; k++)
+        middle[k] = 0.5 * (x[4 * (k / 2) + k % 2] + x[4 * (k / 2) + 2 + k % 2]);
+    free(ends);
+    free(x);
+    return status;
+}
+
+/* The stiffness times the strain. */
+static dem_status find_forces(const peaks_report *r, const dem_index *list, dem_index n, double *force)
+{
+    const dem_spring_peak *peaks = dem_peaks_springs(r->peaks);
+    TRY(lattice_source_pick(&r->lattice, offsetof(dem_lattice, stiffness), list, n, force));
+    for (dem_index k = 0; k < n; k++) force[k] = peaks[list[k]].strain * force[k];
+    return DEM_OK;
+}
+
 static dem_status write_spring_list(const hdf5_file *file, const peaks_report *r, dem_index *list, double *column)
 {
     const dem_index n = dem_peaks_most_strained_springs(r->peaks, r->most, list);
     const dem_spring_peak *peaks = dem_peaks_springs(r->peaks);
-    const dem_lattice *l = r->lattice;
     TRY(write_numbers(file, "/most_stressed/springs/spring", n, list));
-    for (dem_index k = 0; k < 2 * n; k++) {
-        const dem_index *ends = l->ends + 2 * list[k / 2];
-        column[k] = 0.5 * (l->x[2 * ends[0] + k % 2] + l->x[2 * ends[1] + k % 2]);
-    }
+    TRY(find_middles(r, list, n, column));
     TRY(write_column(file, "/most_stressed/springs/x", n, 2, column));
     for (dem_index k = 0; k < n; k++) column[k] = peaks[list[k]].t;
     TRY(write_column(file, "/most_stressed/springs/t", n, 1, column));
     for (dem_index k = 0; k < n; k++) column[k] = peaks[list[k]].strain;
     TRY(write_column(file, "/most_stressed/springs/strain", n, 1, column));
-    /* The column still has the strains. */
-    for (dem_index k = 0; k < n; k++) column[k] *= l->stiffness[list[k]];
+    TRY(find_forces(r, list, n, column));
     return write_column(file, "/most_stressed/springs/force", n, 1, column);
 }
 
 /* Room for as many as are asked for, or as there are; a column has three components at most. */
 dem_status peaks_file_write_lists(const hdf5_file *file, const peaks_report *report)
 {
-    const dem_index n = report->lattice->n_nodes, m = report->lattice->n_springs, largest = n > m ? n : m;
+    const dem_index n = report->lattice.lattice->n_nodes, m = report->lattice.lattice->n_springs,
+                    largest = n > m ? n : m;
     /* One more, so that nothing is allocated without bytes. */
     const size_t most = (size_t)(report->most < largest ? report->most : largest) + 1;
     dem_index *list = malloc(most * sizeof *list);
@@ -117,6 +136,6 @@ dem_status peaks_file_write_lists(const hdf5_file *file, const peaks_report *rep
 /* An upper bound: all reals as doubles, the offsets of n frames, and the lists. */
 hsize_t peaks_file_bytes(const peaks_report *report, hsize_t n)
 {
-    const dem_lattice *l = report->lattice;
+    const dem_lattice *l = report->lattice.lattice;
     return 64 * (hsize_t)l->n_nodes + 16 * (hsize_t)l->n_springs + 40 * n + 104 * (hsize_t)report->most;
 }

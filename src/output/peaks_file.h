@@ -3,11 +3,12 @@
 #ifndef DEM_OUTPUT_PEAKS_FILE_H
 #define DEM_OUTPUT_PEAKS_FILE_H
 
+#include "lattice/lattice_source.h"
 #include "output/frames.h"
 
 typedef struct peaks_report {
     const dem_peaks *peaks;
-    const dem_lattice *lattice;
+    lattice_source lattice;
     dem_index most; /* the largest number of nodes, and of springs, to be listed */
 } peaks_report;
 

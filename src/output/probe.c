@@ -94,29 +94,42 @@ static dem_status name_columns(probe *p, const char *name)
     return DEM_OK;
 }
 
-/* Distance of a gauge's nodes at the positions x, m. */
-static double gauge_length(const dem_probe *what, const double *x)
+/* Of two nodes at the positions x, m. */
+static double distance(const double *x, dem_index i, dem_index j)
 {
-    return vec2_norm(vec2_sub(vec2_at(x, what->number[1]), vec2_at(x, what->number[0])));
+    return vec2_norm(vec2_sub(vec2_at(x, j), vec2_at(x, i)));
 }
 
 /* The strain of a gauge refers to its distance in the rest shape. */
-static dem_status prepare(probe *p, const dem_lattice *lattice)
+static dem_status measure_gauge(probe *p, const lattice_source *lattice)
 {
-    if (p->what.kind == DEM_PROBE_GAUGE) {
-        p->initial = gauge_length(&p->what, lattice->x);
-        CHECK(p->initial > 0.0, DEM_ERROR_ARGUMENT, "probe %s: a gauge from node %lld to node %lld has no length",
-              p->what.name, (long long)p->what.number[0], (long long)p->what.number[1]);
-    }
+    double x[4];
+    TRY(lattice_source_pick(lattice, offsetof(dem_lattice, x), p->what.number, 2, x));
+    p->initial = distance(x, 0, 1);
+    CHECK(p->initial > 0.0, DEM_ERROR_ARGUMENT, "probe %s: a gauge from node %lld to node %lld has no length",
+          p->what.name, (long long)p->what.number[0], (long long)p->what.number[1]);
+    return DEM_OK;
+}
+
+static dem_status find_spring(probe *p, const lattice_source *lattice)
+{
+    TRY(lattice_source_pick(lattice, offsetof(dem_lattice, ends), p->what.number, 1, p->ends));
+    return lattice_source_pick(lattice, offsetof(dem_lattice, rest_length), p->what.number, 1, &p->initial);
+}
+
+static dem_status prepare(probe *p, const lattice_source *lattice)
+{
+    if (p->what.kind == DEM_PROBE_GAUGE) TRY(measure_gauge(p, lattice));
+    if (p->what.kind == DEM_PROBE_SPRING) TRY(find_spring(p, lattice));
     TRY(name_columns(p, p->what.name));
     return table_init(&p->table, p->columns, count_columns(&p->what), NULL);
 }
 
 /* The columns are part of the probe, and the table refers to them: *out must not be moved afterwards. */
-dem_status probe_init(probe *out, const dem_probe *what, const dem_lattice *lattice)
+dem_status probe_init(probe *out, const dem_probe *what, const lattice_source *lattice)
 {
     *out = (probe){0};
-    TRY(check_probe(what, lattice));
+    TRY(check_probe(what, lattice->lattice));
     out->what = *what;
     const dem_status status = prepare(out, lattice);
     if (status != DEM_OK) probe_free(out);
@@ -164,17 +177,17 @@ static dem_status record_node(probe *p, const dem_simulation *simulation, const 
 /* In the order of the columns: t, strain, force. */
 static void record_spring(probe *p, const dem_simulation *simulation, const dem_state *state)
 {
-    const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
-    const dem_index k = p->what.number[0];
-    double row[3] = {state->t, springs_strain_of(l, k, state->x), 0.0};
-    (void)dem_simulation_force_at(simulation, k, &row[2]);
+    const double length = distance(state->x, p->ends[0], p->ends[1]);
+    double row[3] = {state->t, springs_strain_at(p->initial, length), 0.0};
+    (void)dem_simulation_force_at(simulation, p->what.number[0], &row[2]);
     (void)table_put_reals(table_add(&p->table), row, 3);
 }
 
 /* The strain is the length over that at rest, less 1. */
 static void record_gauge(probe *p, const dem_state *state)
 {
-    const double length = gauge_length(&p->what, state->x), row[3] = {state->t, length, length / p->initial - 1.0};
+    const double length = distance(state->x, p->what.number[0], p->what.number[1]),
+                 row[3] = {state->t, length, length / p->initial - 1.0};
     (void)table_put_reals(table_add(&p->table), row, 3);
 }
 

@@ -7,17 +7,19 @@
 
 #include <dem/trajectory.h>
 
+#include "lattice/lattice_source.h"
 #include "output/table.h"
 
 enum { PROBE_COLUMNS = 5 /**< at most */ };
 
 typedef struct probe {
-    dem_probe what; /**< with a name of the probe's own */
-    double initial; /**< distance of a gauge's nodes at rest, m */
-    dem_index left; /**< accepted steps until the next row */
-    bool seen;      /**< whether there was a step */
-    double last;    /**< time of the last step, s */
-    char *text;     /**< the names, one allocation */
+    dem_probe what;    /**< with a name of the probe's own */
+    double initial;    /**< distance of a gauge's nodes at rest, m; the rest length of a spring, */
+    dem_index ends[2]; /**< and its nodes */
+    dem_index left;    /**< accepted steps until the next row */
+    bool seen;         /**< whether there was a step */
+    double last;       /**< time of the last step, s */
+    char *text;        /**< the names, one allocation */
     table_column columns[PROBE_COLUMNS];
     table table; /**< refers to the columns: a probe must stay where it is */
 } probe;
@@ -31,7 +33,7 @@ typedef struct probe_progress {
 } probe_progress;
 
 /** Checks and copies; `out` is left empty on failure. Free with probe_free(). */
-dem_status probe_init(probe *out, const dem_probe *what, const dem_lattice *lattice);
+dem_status probe_init(probe *out, const dem_probe *what, const lattice_source *lattice);
 void probe_free(probe *p);
 
 /** Makes the group: datasets without rows, with their units, and attributes that say what is probed. */

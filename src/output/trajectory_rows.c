@@ -42,7 +42,7 @@ static dem_status make_probes(trajectory_rows *r)
     r->probes = calloc((size_t)r->options.n_probes + 1, sizeof *r->probes);
     CHECK_MEMORY(r->probes);
     for (dem_index k = 0; k < r->options.n_probes; k++) {
-        TRY(probe_init(&r->probes[k], &given[k], dem_model_lattice(r->model)));
+        TRY(probe_init(&r->probes[k], &given[k], &r->lattice));
         for (dem_index q = 0; q < k; q++)
             CHECK(strcmp(given[q].name, given[k].name) != 0, DEM_ERROR_ARGUMENT, "two probes have the name %s",
                   given[k].name);
@@ -63,6 +63,7 @@ dem_status trajectory_rows_init(trajectory_rows *out, const dem_simulation *simu
                                 const dem_trajectory_options *options)
 {
     out->model = dem_simulation_model(simulation);
+    out->lattice = lattice_source_of(out->model);
     out->options = *options;
     /* Events and breaks count as kinds even if they are not wanted: their tables then have no columns. */
     out->n_kinds = ROWS_PROBES + (int)options->n_probes;
@@ -96,10 +97,9 @@ void trajectory_rows_free(trajectory_rows *r)
 /* A new file with everything but rows. */
 dem_status trajectory_rows_create(const trajectory_rows *r, const hdf5_file *file)
 {
-    const dem_lattice *lattice = dem_model_lattice(r->model);
-    if (has_frames(r)) TRY(frames_create(&r->frames, file, lattice));
+    if (has_frames(r)) TRY(frames_create(&r->frames, file, &r->lattice));
     TRY(fragment_table_create(&r->fragments, file));
-    TRY(lattice_file_write(file, lattice, r->options.deflate));
+    TRY(lattice_file_write(file, &r->lattice, r->options.deflate));
     TRY(obstacle_file_write(file, r->model));
     if (r->options.events) TRY(event_table_create(&r->events, file));
     TRY(table_create(&r->breaks, file));
@@ -195,7 +195,7 @@ dem_status trajectory_rows_verify(const trajectory_rows *r, const hdf5_file *fil
 /* Peaks belong to the caller and are read when the run is finished. */
 static peaks_report report_of(const trajectory_rows *r)
 {
-    return (peaks_report){r->options.peaks, dem_model_lattice(r->model), r->options.most_stressed};
+    return (peaks_report){r->options.peaks, r->lattice, r->options.most_stressed};
 }
 
 /* Arrays need at least one frame to be shown in; the lists do not. */

@@ -19,6 +19,7 @@ enum { ROWS_FRAMES, ROWS_HISTORY, ROWS_EVENTS, ROWS_BREAKS, ROWS_PROBES /**< the
 
 typedef struct trajectory_rows {
     const dem_model *model;
+    lattice_source lattice; /* of the model */
     dem_trajectory_options options;
     frames frames;
     stripes stripes;          /* where arrays of frames are, if not in the file itself */

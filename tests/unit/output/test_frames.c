@@ -52,7 +52,7 @@ static reader *shoot_breaking(void (*open)(support_run *), uint32_t fields, int 
     open(&f->run);
     stored_open(&f->stored);
     assert_ok(frames_init(&f->frames, f->run.model, &options));
-    assert_ok(frames_create(&f->frames, &f->stored.file, dem_model_lattice(f->run.model)));
+    assert_ok(frames_create(&f->frames, &f->stored.file, &(lattice_source){dem_model_lattice(f->run.model), NULL}));
     for (f->frames.n = 0; f->frames.n < 2; f->frames.n++) {
         (void)support_at(&f->run, 1e-4 * (double)f->frames.n);
         assert_ok(frames_append(&f->frames, &f->stored.file, f->run.simulation));
@@ -209,7 +209,7 @@ TEST(of_an_older_file_what_is_hidden_is_made_from_what_is_broken)
         assert_ok(frames_count(&f->frames, &f->stored.file, &count));
         assert_int_equal(count, 2);
         stored_open(&copy);
-        assert_ok(frames_create(&f->frames, &copy.file, dem_model_lattice(f->run.model)));
+        assert_ok(frames_create(&f->frames, &copy.file, &(lattice_source){dem_model_lattice(f->run.model), NULL}));
         assert_ok(frames_copy(&f->frames, &f->stored.file, &copy.file, (hdf5_span){1, 1, 0}));
         assert_ok(frames_copy(&f->frames, &f->stored.file, &copy.file, (hdf5_span){0, 2, 1}));
         assert_ok(frames_verify(&f->frames, &copy.file, 3));

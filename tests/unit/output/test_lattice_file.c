@@ -196,7 +196,8 @@ TEST_WITH(optional_numbers_are_read_and_come_back_as_they_were_written, write_la
         assert_memory_equal(lattice.own_stress, "\1\0", 2);
         assert_memory_equal(lattice.critical_stretch, critical_stretch, sizeof critical_stretch);
         assert_int_equal(hdf5_open_new(&file, path, 4096), DEM_OK);
-        assert_int_equal(hdf5_close(&file, lattice_file_write(&file, &lattice, deflate)), DEM_OK);
+        assert_int_equal(hdf5_close(&file, lattice_file_write(&file, &(lattice_source){&lattice, NULL}, deflate)),
+                         DEM_OK);
     }
     CLEANUP(dem_lattice_free) dem_lattice back = read_lattice();
     assert_memory_equal(back.viscosity, viscosity, sizeof viscosity);
@@ -244,7 +245,7 @@ TEST_WITH(rigid_nodes_come_back_as_they_were_written, write_lattice, remove_latt
     CLEANUP(dem_lattice_free) dem_lattice lattice = read_lattice();
     hdf5_file file;
     assert_int_equal(hdf5_open_new(&file, path, 4096), DEM_OK);
-    assert_int_equal(hdf5_close(&file, lattice_file_write(&file, &lattice, 0)), DEM_OK);
+    assert_int_equal(hdf5_close(&file, lattice_file_write(&file, &(lattice_source){&lattice, NULL}, 0)), DEM_OK);
     assert_flags(expected);
     put_whole("rigid", 5, 0, (int64_t[5]){1, 0, 4, 2, 0});
     INCONSISTENT("/rigid: entry 2 is 4, which is not in 0 to 3");

@@ -36,9 +36,9 @@ static stress_case *begin(dem_index most)
     stored_open(&c->stored);
     options_of_file.double_precision = 1;
     assert_ok(frames_init(&c->frames, c->run.model, &options_of_file));
-    assert_ok(frames_create(&c->frames, &c->stored.file, dem_model_lattice(c->run.model)));
+    assert_ok(frames_create(&c->frames, &c->stored.file, &(lattice_source){dem_model_lattice(c->run.model), NULL}));
     c->frames.n = 2;
-    c->report = (peaks_report){c->peaks, dem_model_lattice(c->run.model), most};
+    c->report = (peaks_report){c->peaks, lattice_source_of(c->run.model), most};
     return c;
 }
 
@@ -78,7 +78,7 @@ TEST(lists_have_the_most_stressed_with_place_and_time)
 {
     dem_index nodes[3], springs[3];
     stress_case *c = begin(3);
-    const dem_lattice *l = c->report.lattice;
+    const dem_lattice *l = c->report.lattice.lattice;
     assert_ok(peaks_file_write_lists(&c->stored.file, &c->report));
     assert_int_equal(dem_peaks_most_stressed_nodes(c->peaks, 3, nodes), 3);
     assert_int_equal(dem_peaks_most_strained_springs(c->peaks, 3, springs), 3);

@@ -60,7 +60,7 @@ static journal *keep_of(dem_lattice lattice)
     support_open(&j->run, &lattice, NULL, 0, &options);
     stored_open(&j->stored);
     for (int p = 0; p < n_kinds; p++) {
-        assert_ok(probe_init(&j->probes[p], &probes[p], &lattice));
+        assert_ok(probe_init(&j->probes[p], &probes[p], &(lattice_source){&lattice, NULL}));
         assert_ok(probe_create(&j->probes[p], &j->stored.file));
     }
     dem_lattice_free(&lattice);
@@ -164,12 +164,12 @@ TEST(what_cannot_be_probed_is_refused)
     CLEANUP(probe_free) probe p;
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(1.0, 1.0, 1.0);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        assert_int_equal(probe_init(&p, &cases[k].probe, &lattice), DEM_ERROR_ARGUMENT);
+        assert_int_equal(probe_init(&p, &cases[k].probe, &(lattice_source){&lattice, NULL}), DEM_ERROR_ARGUMENT);
         assert_message_parts(cases[k].message);
         assert_null(p.text);
     }
     const dem_probe longest = {name, DEM_PROBE_NODE, {0, 0}, 1};
-    assert_ok(probe_init(&p, &longest, &lattice));
+    assert_ok(probe_init(&p, &longest, &(lattice_source){&lattice, NULL}));
     assert_string_equal(p.what.name, name);
     assert_ptr_not_equal(p.what.name, name);
 }

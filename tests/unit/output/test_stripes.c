@@ -3,6 +3,7 @@
  * whole and in segments, is read as one of a process alone. */
 #include "harness/rank_threads.h"
 #include "simulation/led_run.h"
+#include "unit/same_frames.h"
 #include "unit/scratch.h"
 #include "unit/simulation/runs.h"
 #include "verification/rank_runs.h"
@@ -66,34 +67,6 @@ static written prepare(const dem_model *model, const char *path, int writers)
     return w;
 }
 
-/* Every array of every frame. */
-static void check_same(const char *one, const char *other)
-{
-    dem_reader *readers[2] = {NULL, NULL};
-    dem_index n, n_frames[2];
-    assert_ok(dem_reader_open(&readers[0], one));
-    assert_ok(dem_reader_open(&readers[1], other));
-    const dem_lattice *l = dem_reader_lattice(readers[0]);
-    const size_t most = 9 * (size_t)(l->n_nodes + l->n_springs + l->n_triangles) * sizeof(double);
-    double *values[2] = {calloc(1, most), calloc(1, most)};
-    for (int k = 0; k < 2; k++) (void)dem_reader_times(readers[k], &n_frames[k]);
-    assert_int_equal(n_frames[0], n_frames[1]);
-    assert_true(n_frames[0] > 10);
-    const dem_reader_array *arrays = dem_reader_arrays(readers[0], &n);
-    for (dem_index frame = 0; frame < n_frames[0]; frame++) {
-        for (int k = 0; k < 2; k++) assert_ok(dem_reader_positions(readers[k], frame, values[k]));
-        assert_memory_equal(values[0], values[1], most);
-        for (const dem_reader_array *a = arrays; a < arrays + n; a++) {
-            for (int k = 0; k < 2; k++) assert_ok(dem_reader_read(readers[k], a, frame, values[k]));
-            assert_memory_equal(values[0], values[1], most);
-        }
-    }
-    for (int k = 0; k < 2; k++) {
-        free(values[k]);
-        dem_reader_close(readers[k]);
-    }
-}
-
 static void touch(const char *path)
 {
     file_put(path, "no file of HDF5", 15);
@@ -112,11 +85,11 @@ TEST(stripes_of_a_whole_and_of_a_segment_read_as_the_files_of_one_process)
     written alone = prepare(model, one, 0), shared = prepare(model, led, 2);
     touch(folder_at(&folder, "led.00007.3of5.h5")); /* left from a kill */
     assert_ok(write_run(&alone, NULL));
-    rank_runs_lead(N_RANKS, write_as_leader, &shared);
+    rank_runs_lead(N_RANKS, NULL, write_as_leader, &shared);
     assert_string_equal(shared.failure, "");
     (void)unlink(folder_at(&folder, "one.obstacle.vtkhdf"));
     (void)unlink(folder_at(&folder, "led.obstacle.vtkhdf"));
-    check_same(one, led);
+    same_frames_check(one, led);
     dem_model_destroy(model);
     folder_close(&folder);
 }
@@ -131,7 +104,7 @@ TEST(what_has_the_name_of_a_stripe_and_is_none_stays_and_is_in_the_way)
     written w = prepare(model, led, 2);
     assert_ok(hdf5_open_new(&other, name, 0));
     assert_ok(hdf5_close(&other, DEM_OK));
-    rank_runs_lead(N_RANKS, write_as_leader, &w);
+    rank_runs_lead(N_RANKS, NULL, write_as_leader, &w);
     assert_non_null(strstr(w.failure, "led.00001.2of2.h5 is in the way of a stripe of that name"));
     dem_model_destroy(model);
     folder_close(&folder);
@@ -143,7 +116,7 @@ TEST(no_more_writers_than_ranks_are_taken)
     folder_open(&folder);
     dem_model *model = make_falling(0.5);
     written w = prepare(model, folder_file(&folder, "led.vtkhdf"), N_RANKS + 1);
-    rank_runs_lead(N_RANKS, write_as_leader, &w);
+    rank_runs_lead(N_RANKS, NULL, write_as_leader, &w);
     assert_non_null(strstr(w.failure, "4 writers"));
     w.writers = 2;
     assert_int_equal(write_run(&w, NULL), DEM_ERROR_ARGUMENT);

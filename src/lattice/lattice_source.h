@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The arrays of a lattice for those who look at one after the other: they may be those of a whole of which ranks have
+ * the parts, and then come from them (model/whole_of_parts.h). */
+#ifndef DEM_LATTICE_LATTICE_SOURCE_H
+#define DEM_LATTICE_LATTICE_SOURCE_H
+
+#include <stddef.h>
+
+#include <dem/dem.h>
+
+typedef struct lattice_source {
+    const dem_lattice *lattice; /* its counts, and the arrays that are here */
+    const dem_model *whole;     /* of which ranks have the arrays; NULL: all are here */
+} lattice_source;
+
+/** Of the lattice of a model. Defined in model/whole_of_parts.c, as the next one is: those who write files see no more
+ *  of a model than its public headers. */
+lattice_source lattice_source_of(const dem_model *model);
+
+typedef struct source_array {
+    const void *items; /* NULL: the lattice has no such array */
+    void *gathered;    /* the same, if it has come from ranks; NULL: it is the lattice's */
+} source_array;
+
+/** Gets an array. On rank 0 where ranks have parts, while the others wait for what it asks of them. Close it, after a
+ *  failure, too.
+ *  \param member  offset of the array's pointer in a dem_lattice
+ *  \return DEM_ERROR_MEMORY */
+dem_status lattice_source_open(source_array *out, const lattice_source *from, size_t member);
+void lattice_source_close(source_array *a);
+
+/** Gets the items of n nodes, springs or triangles from an array that there is.
+ *  \param list      [n] their numbers
+ *  \param[out] out  [n] items */
+dem_status lattice_source_pick(const lattice_source *from, size_t member, const dem_index *list, dem_index n,
+                               void *out);
+
+#endif

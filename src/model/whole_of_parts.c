@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* All ranks have the same arrays. What a model fills in where its lattice has none is filled in the whole, too. */
+#include "model/whole_of_parts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/reduce.h"
+#include "base/status.h"
+#include "domain/gather.h"
+#include "lattice/lattice_arrays.h"
+#include "lattice/lattice_source.h"
+#include "obstacle/obstacle_set.h"
+
+/* ---- the model ---- */
+
+/* A side belongs to its lower node. */
+static dem_index count_own_edges(const dem_model *part)
+{
+    dem_index n = 0;
+    for (dem_index k = 0; k < part->surface.n_edges; k++)
+        n += domain_owns(part->domain, domain_lowest(part->surface.ends + 2 * k, 2));
+    return n;
+}
+
+static void take_counts(dem_model *m, const dem_model *part)
+{
+    const domain *d = part->domain;
+    m->lattice = dem_lattice_empty();
+    m->lattice.dim = part->lattice.dim;
+    m->lattice.n_nodes = d->n_whole;
+    m->lattice.n_springs = d->n_springs;
+    m->lattice.n_triangles = d->n_triangles;
+    m->surface.n_nodes = d->n_surface_nodes;
+    m->edges_are_springs = part->edges_are_springs;
+    m->n_bodies = part->n_bodies;
+    m->spacing = part->spacing;
+    m->omega_max = part->omega_max;
+    m->mass = part->mass;
+}
+
+static dem_status make(dem_model **out, const dem_model *part)
+{
+    dem_model *m = calloc(1, sizeof *m);
+    CHECK_MEMORY(m);
+    m->ranks = &ranks_alone;
+    take_counts(m, part);
+    const dem_status status = obstacles_compile(&m->obstacles, part->obstacles.list, part->obstacles.n);
+    if (status == DEM_OK)
+        *out = m;
+    else
+        dem_model_destroy(m);
+    return status;
+}
+
+dem_status whole_of_parts_create(dem_model **out, dem_model *part, model_array_asker *ask)
+{
+    const ranks *r = part->ranks;
+    const dem_index n_edges = reduce_count(r, count_own_edges(part));
+    TRY(reduce_status(r, r->rank == 0 ? make(out, part) : DEM_OK, 0.0));
+    if (r->rank > 0) return DEM_OK;
+    (*out)->surface.n_edges = n_edges;
+    (*out)->part = part;
+    (*out)->ask_array = ask;
+    return DEM_OK;
+}
+
+/* ---- its arrays ---- */
+
+static gather_items items_of(const dem_model *part, lattice_items of)
+{
+    if (of == LATTICE_NODES) return gather_nodes(part->domain);
+    return of == LATTICE_SPRINGS ? gather_springs(part->domain, &part->lattice)
+                                 : gather_triangles(part->domain, &part->lattice);
+}
+
+/* By the numbers of the whole.  \return NULL without memory */
+static dem_index *number_corners(const dem_model *part, const dem_index *corner, size_t n)
+{
+    dem_index *number = malloc((n + 1) * sizeof *number);
+    for (size_t k = 0; k < n && number != NULL; k++) number[k] = part->domain->number[corner[k]];
+    return number;
+}
+
+static dem_status gather_corners(const dem_model *part, const lattice_array *a, const gather_items *items, void *whole)
+{
+    const dem_index *corner = lattice_array_of(&part->lattice, a);
+    dem_index *number = number_corners(part, corner, (size_t)(items->n * items->n_corners));
+    dem_status status = number == NULL ? status_fail(DEM_ERROR_MEMORY, "out of memory for what ranks have") : DEM_OK;
+    status = reduce_status(part->ranks, status, 0.0);
+    if (status == DEM_OK) status = gather_rows(part->ranks, items, a->size, number, whole);
+    free(number);
+    return status;
+}
+
+dem_status whole_of_parts_gather(const dem_model *part, int array, void *whole)
+{
+    const lattice_array *a = &lattice_arrays[array];
+    const gather_items items = items_of(part, a->of);
+    if (lattice_array_is_corners(a)) return gather_corners(part, a, &items, whole);
+    return gather_rows(part->ranks, &items, a->size, lattice_array_of(&part->lattice, a), whole);
+}
+
+lattice_source lattice_source_of(const dem_model *model)
+{
+    return (lattice_source){.lattice = &model->lattice, .whole = model->part != NULL ? model : NULL};
+}
+
+static int find_array(size_t member)
+{
+    int k = 0;
+    while (lattice_arrays[k].offset != member) k++;
+    return k;
+}
+
+dem_status lattice_source_open(source_array *out, const lattice_source *from, size_t member)
+{
+    const int k = find_array(member);
+    const lattice_array *a = &lattice_arrays[k];
+    const dem_model *whole = from->whole;
+    *out = (source_array){.items = lattice_array_of(from->lattice, a)};
+    if (whole == NULL || lattice_array_of(&whole->part->lattice, a) == NULL) return DEM_OK;
+    out->gathered = malloc((size_t)lattice_count(from->lattice, a->of) * a->size + 1);
+    CHECK_MEMORY(out->gathered);
+    out->items = out->gathered;
+    return whole->ask_array(whole, k, out->gathered);
+}
+
+void lattice_source_close(source_array *a)
+{
+    free(a->gathered);
+    *a = (source_array){0};
+}
+
+dem_status lattice_source_pick(const lattice_source *from, size_t member, const dem_index *list, dem_index n, void *out)
+{
+    const size_t size = lattice_arrays[find_array(member)].size;
+    source_array a;
+    const dem_status status = lattice_source_open(&a, from, member);
+    for (dem_index k = 0; k < n && status == DEM_OK; k++)
+        memcpy((char *)out + (size_t)k * size, (const char *)a.items + (size_t)list[k] * size, size);
+    lattice_source_close(&a);
+    return status;
+}

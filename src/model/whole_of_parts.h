@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The model of a whole of which ranks have the parts, and nobody the arrays: what rank 0 leads their run with. It has
+ * the counts, the scales and the obstacles of the whole; of its lattice one array after the other can be gathered
+ * (lattice/lattice_source.h). */
+#ifndef DEM_MODEL_WHOLE_OF_PARTS_H
+#define DEM_MODEL_WHOLE_OF_PARTS_H
+
+#include "model/model.h"
+
+/** Counts what the whole has. Collective; on rank 0 it makes the model, which takes the part over.
+ *  \param out   on rank 0; NULL elsewhere
+ *  \param part  of each rank
+ *  \param ask   see dem_model
+ *  \return DEM_ERROR_MEMORY, on all ranks */
+dem_status whole_of_parts_create(dem_model **out, dem_model *part, model_array_asker *ask);
+
+/** Gathers array number `array` of lattice_arrays from the parts. Collective.
+ *  \param[out] items  of the whole, on rank 0; not looked at elsewhere
+ *  \return DEM_ERROR_MEMORY, on all ranks */
+dem_status whole_of_parts_gather(const dem_model *part, int array, void *items);
+
+#endif
