@@ -9,6 +9,7 @@
 #include "domain/balance.h"
 #include "simulation/private.h"
 #include "simulation/shared_peaks.h"
+#include "simulation/shared_slabs.h"
 
 /* A frame of one of the whole's observers. */
 typedef struct frame_relay {
@@ -26,7 +27,9 @@ typedef struct calls {
 struct led_run {
     ranks ranks;             /* which do not end with the model */
     dem_simulation *whole;   /* NULL: this rank follows */
-    dem_model *model;        /* of the part */
+    dem_model *model;        /* of the part, */
+    bool is_of_slabs;        /* which lasts longer than the run, as it is of slabs; on rank 0 the whole owns it */
+    const slab_maker *maker; /* of slabs. On rank 0: NULL */
     dem_simulation *part;    /* NULL: there is none */
     shared_peaks peaks;      /* of the part, and on rank 0 whose they are */
     section_streams streams; /* for sections of files */

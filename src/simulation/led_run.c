@@ -22,21 +22,28 @@
 
 /* ---- parts ---- */
 
+static void drop_model(led_run *l)
+{
+    if (l->whole == NULL || !l->is_of_slabs) dem_model_destroy(l->model);
+    l->model = NULL;
+    l->is_of_slabs = false;
+}
+
 static void drop(led_run *l)
 {
     shared_peaks_drop(&l->peaks);
     section_streams_free(&l->streams);
     dem_simulation_destroy(l->part);
-    dem_model_destroy(l->model);
     l->part = NULL;
-    l->model = NULL;
     l->is_observed = false;
+    if (!l->is_of_slabs) drop_model(l);
 }
 
 /* Shares in stresses of the whole, which creating its simulation may have made, nobody reads: parts have their own. */
 static dem_status distribute(led_run *l, const dem_private_whole *about)
 {
     const dem_model *whole = l->whole != NULL ? l->whole->model : NULL;
+    if (l->is_of_slabs) return DEM_OK;
     if (whole != NULL) stress_forget(&whole->stress);
     return shared_model_distribute(&l->model, whole, about, &l->ranks);
 }
@@ -201,12 +208,22 @@ typedef union answer {
     double numbers[6];
 } answer;
 
-static void create_follower(led_run *l, bool resumes)
+static void create_follower(led_run *l, const rank_call *o)
 {
     dem_checkpoint *entries = NULL;
+    if (l->is_of_slabs && !(o->number & RANK_CALL_OF_SLABS)) drop_model(l);
     if (reduce_status(&l->ranks, dem_checkpoint_create(&entries), 0.0) == DEM_OK)
-        (void)create(l, entries, resumes, NULL);
+        (void)create(l, entries, (o->number & RANK_CALL_RESUMED) != 0, NULL);
     dem_checkpoint_destroy(entries);
+}
+
+/* In place of the model that there is. */
+static void make_slabs(led_run *l)
+{
+    drop_model(l);
+    if (shared_slabs_create(&l->model, &l->ranks, l->maker, NULL) != DEM_OK) return;
+    l->is_of_slabs = true;
+    if (whole_of_parts_create(NULL, l->model, NULL) != DEM_OK) drop_model(l);
 }
 
 static void take_part(led_run *l, const rank_call *o)
@@ -215,7 +232,13 @@ static void take_part(led_run *l, const rank_call *o)
     led_ranks_enter(l);
     switch (o->kind) {
     case RANK_CALL_CREATE:
-        create_follower(l, o->number != 0);
+        create_follower(l, o);
+        break;
+    case RANK_CALL_SLABS:
+        make_slabs(l);
+        break;
+    case RANK_CALL_ARRAY:
+        (void)whole_of_parts_gather(l->model, (int)o->number, NULL);
         break;
     case RANK_CALL_OBSERVE:
         (void)observe(l, o);
@@ -437,7 +460,8 @@ static dem_status begin_parts(led_run *l, dem_checkpoint *entries, const dem_che
         (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_DROP});
         drop(l);
     }
-    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_CREATE, .number = checkpoint != NULL});
+    const dem_index number = (checkpoint != NULL ? RANK_CALL_RESUMED : 0) | (l->is_of_slabs ? RANK_CALL_OF_SLABS : 0);
+    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_CREATE, .number = number});
     TRY(reduce_status(&l->ranks, DEM_OK, 0.0));
     return create(l, entries, checkpoint != NULL, checkpoint);
 }
@@ -446,7 +470,8 @@ static dem_status put_problem(led_run *l, dem_checkpoint **entries)
 {
     led_ranks_enter(l);
     dem_status status = dem_checkpoint_create(entries);
-    if (status == DEM_OK) status = shared_problem_put(*entries, l->whole->model, l->options);
+    const obstacle_set *obstacles = &l->whole->model->obstacles;
+    if (status == DEM_OK) status = shared_problem_put(*entries, obstacles->list, obstacles->n, l->options);
     led_ranks_leave(l);
     return status;
 }
@@ -499,7 +524,7 @@ static dem_status advance_parts(led_run *l, double t_end)
 dem_status led_run_advance(dem_simulation *whole, double t_end)
 {
     led_run *l = whole->leads;
-    model_rows_give_up(whole->model);
+    if (!l->is_of_slabs) model_rows_give_up(whole->model);
     for (;;) {
         if (!l->is_observed) TRY(attach(l));
         const dem_status status = advance_parts(l, t_end);
@@ -524,10 +549,12 @@ static dem_status lead(led_run *l, const dem_checkpoint *checkpoint)
           "rank 0 cannot lead a run with obstacles whose motion a function computes");
     CHECK(l->options->force == NULL, DEM_ERROR_ARGUMENT, "rank 0 cannot lead a run with an external force");
     TRY(balance_create(&l->balance, l->ranks.size));
-    if (l->ranks.size > 1) TRY(near_contact_create(&l->near, l->whole->model, &l->whole->options));
+    if (l->ranks.size > 1 && !l->is_of_slabs) TRY(near_contact_create(&l->near, l->whole->model, &l->whole->options));
     leader_observers_look_ahead(l, checkpoint);
     near_contact_take(&l->near, 0.0, 0.0);
-    return begin(l, checkpoint);
+    TRY(begin(l, checkpoint));
+    if (l->is_of_slabs) l->whole->options = l->part->options; /* which depend on arrays */
+    return DEM_OK;
 }
 
 void led_run_destroy(led_run *l)
@@ -546,7 +573,12 @@ dem_status dem_private_lead(dem_simulation *whole, const ranks *r, const dem_opt
 {
     led_run *l = calloc(1, sizeof *l);
     CHECK_MEMORY(l);
-    *l = (led_run){.ranks = *r, .whole = whole, .options = options, .weighs_anew = true};
+    *l = (led_run){.ranks = *r,
+                   .whole = whole,
+                   .options = options,
+                   .weighs_anew = true,
+                   .model = whole->model->part,
+                   .is_of_slabs = whole->model->part != NULL};
     l->ranks.end = NULL;
     led_ranks_pass_checkpoint(l);
     step_parts_destroy(whole); /* before there is memory for parts */
@@ -568,13 +600,31 @@ void dem_private_shares(const dem_simulation *whole, double *least, double *most
     memcpy(most, s.most, sizeof s.most);
 }
 
-dem_index dem_private_follow(const ranks *r)
+/* Rank 0 has the others gather it, too. */
+static dem_status ask_array(const dem_model *whole, int array, void *items)
 {
-    led_run l = {.ranks = *r};
+    (void)rank_call_send(whole->part->ranks, (rank_call){.kind = RANK_CALL_ARRAY, .number = array});
+    return whole_of_parts_gather(whole->part, array, items);
+}
+
+dem_status dem_private_lead_slabs(dem_model **out, const ranks *r, const slab_maker *maker, const slab_recipe *recipe)
+{
+    dem_model *part = NULL;
+    (void)rank_call_send(r, (rank_call){.kind = RANK_CALL_SLABS});
+    TRY(shared_slabs_create(&part, r, maker, recipe));
+    const dem_status status = whole_of_parts_create(out, part, ask_array);
+    if (status != DEM_OK) dem_model_destroy(part);
+    return status;
+}
+
+dem_index dem_private_follow(const ranks *r, const slab_maker *maker)
+{
+    led_run l = {.ranks = *r, .maker = maker};
     l.ranks.end = NULL;
     led_ranks_pass_checkpoint(&l);
     const rank_call last = serve(&l);
     drop(&l);
+    drop_model(&l);
     return last.number;
 }
 

@@ -7,6 +7,7 @@
 
 #include "simulation/rank_call.h"
 #include "simulation/private.h"
+#include "simulation/shared_slabs.h"
 
 /** Makes a simulation that has not been advanced the leader of one that all ranks have a part of. On rank 0, while the
  *  others are in dem_private_follow(). No program may call this. While it leads there is no other simulation of its
@@ -20,12 +21,22 @@
 DEM_API dem_status dem_private_lead(dem_simulation *whole, const ranks *r, const dem_options *options,
                                     const dem_checkpoint *checkpoint);
 
+/** Makes a model of slabs that each rank makes by a recipe of rank 0: of the whole, for a simulation that leads a run
+ *  with its parts, and does nothing else. On rank 0, while the others are in dem_private_follow(). No program may call
+ *  this.
+ *  \param r      outlives the model
+ *  \param maker  of rank 0
+ *  \return as shared_slabs_create() */
+DEM_API dem_status dem_private_lead_slabs(dem_model **out, const ranks *r, const slab_maker *maker,
+                                          const slab_recipe *recipe);
+
 /** Measures what the ranks of a run that rank 0 leads have of it. On rank 0. No program may call this.
  *  \param[out] least, most  [4] of one rank, in the order of simulation/rank_shares.h */
 DEM_API void dem_private_shares(const dem_simulation *whole, double *least, double *most);
 
-/** Takes part in the runs of the leader, on the other ranks, until it dismisses them.  \return its number */
-DEM_API dem_index dem_private_follow(const ranks *r);
+/** Takes part in the runs of the leader, on the other ranks, until it dismisses them.
+ *  \param maker  of slabs on this rank  \return its number */
+DEM_API dem_index dem_private_follow(const ranks *r, const slab_maker *maker);
 
 /** Dismisses the followers. On rank 0, when it leads none of its simulations any more. */
 DEM_API void dem_private_dismiss(const ranks *r, dem_index number);

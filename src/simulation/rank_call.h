@@ -10,10 +10,12 @@
 
 typedef enum rank_call_kind {
     RANK_CALL_GO_ON,   /* from an observer, with a status as `number` */
-    RANK_CALL_CREATE,  /* a simulation; number 1: it goes on from a checkpoint */
+    RANK_CALL_SLABS,   /* a model of slabs that ranks make (simulation/shared_slabs.h) */
+    RANK_CALL_CREATE,  /* a simulation, as the number says */
     RANK_CALL_OBSERVE, /* it, with frames at these intervals, and what the number says */
     RANK_CALL_ADVANCE, /* to t */
-    RANK_CALL_GATHER,  /* positions and velocities */
+    RANK_CALL_GATHER,  /* positions and velocities, */
+    RANK_CALL_ARRAY,   /* or an array of the lattice, of this number in lattice_arrays */
     RANK_CALL_ENERGY,
     RANK_CALL_STRAIN,
     RANK_CALL_COUNTS,
@@ -34,6 +36,9 @@ typedef enum rank_call_kind {
     RANK_CALL_DROP,          /* the simulation */
     RANK_CALL_END            /* no more calls; `number` is for the program */
 } rank_call_kind;
+
+/* Bits: whether a simulation goes on from a checkpoint, and whether it is of the model of slabs that there is. */
+enum { RANK_CALL_RESUMED = 1, RANK_CALL_OF_SLABS = 2 };
 
 /* Bits: what observers want beside steps and frames. */
 enum { RANK_CALL_WITH_EVENTS = 1, RANK_CALL_WITH_BREAKS = 2, RANK_CALL_WITH_TOUCHING = 4 };

@@ -26,20 +26,27 @@
 #include "simulation/step_parts.h"
 #include "simulation/unseen_steps.h"
 
-static dem_status allocate(dem_simulation *s)
+/* What is seen of it. */
+static dem_status allocate_seen(dem_simulation *s)
 {
     const obstacle_set *o = &s->model->obstacles;
     const size_t n = (size_t)state_size(&s->layout);
-    s->y = s->initial = aligned_zeros(n);
     s->frame = malloc(n * sizeof *s->frame);
     s->measures = calloc(1, sizeof *s->measures);
     s->survey = calloc(1, sizeof *s->survey);
     s->field = calloc(1, sizeof *s->field);
     s->bodies = calloc((size_t)s->model->n_bodies, sizeof *s->bodies);
     if (o->is_asked) s->poses = calloc((size_t)o->n, sizeof *s->poses);
-    CHECK(s->y && s->frame && s->measures && s->survey && s->field && s->bodies && (s->poses || !o->is_asked),
-          DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes", (long long)s->model->lattice.n_nodes);
+    CHECK(s->frame && s->measures && s->survey && s->field && s->bodies && (s->poses || !o->is_asked), DEM_ERROR_MEMORY,
+          "out of memory for the state of %lld nodes", (long long)s->model->lattice.n_nodes);
     return DEM_OK;
+}
+
+static dem_status allocate(dem_simulation *s)
+{
+    s->y = s->initial = aligned_zeros((size_t)state_size(&s->layout));
+    CHECK(s->y, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes", (long long)s->model->lattice.n_nodes);
+    return allocate_seen(s);
 }
 
 /* Changes of one candidate in a step beyond which it is taken again, shorter (docs/algorithms.md, Refused states). */
@@ -193,6 +200,16 @@ static dem_status set_up(dem_simulation *s)
     return DEM_OK;
 }
 
+/* Of a whole of which ranks have the parts, which leads their run and is not advanced itself. */
+static dem_status set_up_leader(dem_simulation *s)
+{
+    TRY(allocate_seen(s));
+    TRY(dem_checkpoint_create(&s->checkpoint));
+    s->overlap.found.node = s->overlap.found.triangle = -1;
+    query_at(s, 0.0, s->frame);
+    return DEM_OK;
+}
+
 /* Of a model that ranks share rank 0 has the checkpoint. */
 static dem_status restore_part(dem_simulation *s, const dem_checkpoint *whole)
 {
@@ -221,6 +238,13 @@ static dem_status resume(dem_simulation *s, const dem_checkpoint *checkpoint)
     return checkpoint != NULL ? checkpoint_entries_copy(s->checkpoint, checkpoint) : DEM_OK;
 }
 
+/* Parts check what they go on from. */
+static dem_status resume_leader(dem_simulation *s, const dem_checkpoint *checkpoint)
+{
+    s->has_checkpoint = true;
+    return checkpoint_entries_copy(s->checkpoint, checkpoint);
+}
+
 static dem_status create(dem_simulation **out, const dem_model *model, const dem_options *options, bool resumes,
                          const dem_checkpoint *checkpoint)
 {
@@ -236,8 +260,9 @@ static dem_status create(dem_simulation **out, const dem_model *model, const dem
     s->options = own;
     s->layout = state_layout_of(model->lattice.dim, model->lattice.n_nodes, model->obstacles.n,
                                 model->obstacles.bounds.speed > 0.0);
-    dem_status status = reduce_status(s->model->ranks, set_up(s), 0.0);
-    if (status == DEM_OK && resumes) status = resume(s, checkpoint);
+    const bool leads = model->part != NULL;
+    dem_status status = reduce_status(s->model->ranks, leads ? set_up_leader(s) : set_up(s), 0.0);
+    if (status == DEM_OK && resumes) status = leads ? resume_leader(s, checkpoint) : resume(s, checkpoint);
     freed_memory_return(model->lattice.n_nodes);
     if (status == DEM_OK)
         *out = s;

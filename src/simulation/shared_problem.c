@@ -35,15 +35,15 @@ static dem_status put_obstacle(dem_checkpoint *into, const dem_obstacle *o, dem_
                               2 * (size_t)o->n_points * sizeof *o->points);
 }
 
-dem_status shared_problem_put(dem_checkpoint *into, const dem_model *model, const dem_options *options)
+dem_status shared_problem_put(dem_checkpoint *into, const dem_obstacle *obstacles, dem_index n_obstacles,
+                              const dem_options *options)
 {
-    const obstacle_set *obstacles = &model->obstacles;
-    TRY(dem_checkpoint_put(into, "obstacles", &obstacles->n, sizeof obstacles->n));
+    TRY(dem_checkpoint_put(into, "obstacles", &n_obstacles, sizeof n_obstacles));
     TRY(dem_checkpoint_put(into, "options", options, sizeof *options));
     if (options->body_friction != NULL)
         TRY(dem_checkpoint_put(into, "body friction", options->body_friction,
                                (size_t)options->n_body_frictions * sizeof *options->body_friction));
-    for (dem_index k = 0; k < obstacles->n; k++) TRY(put_obstacle(into, &obstacles->list[k], k));
+    for (dem_index k = 0; k < n_obstacles; k++) TRY(put_obstacle(into, &obstacles[k], k));
     for (dem_index k = 0; k < options->n_boundaries; k++) TRY(put_boundary(into, &options->boundaries[k], k));
     return DEM_OK;
 }

@@ -13,8 +13,10 @@ typedef struct shared_problem {
 } shared_problem;
 
 /** Puts them into entries. Options and obstacles are this library's, without functions of the program.
+ *  \param obstacles  [n_obstacles]
  *  \return DEM_ERROR_MEMORY */
-dem_status shared_problem_put(dem_checkpoint *into, const dem_model *model, const dem_options *options);
+dem_status shared_problem_put(dem_checkpoint *into, const dem_obstacle *obstacles, dem_index n_obstacles,
+                              const dem_options *options);
 
 /** Gets them from there. Views are valid as long as the entries are. Free with shared_problem_free(),
  *  after a failure, too.

@@ -528,6 +528,8 @@ static dem_status advance(dem_simulation *s, double t_end)
 dem_status dem_simulation_advance(dem_simulation *s, double t_end)
 {
     CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_advance: simulation is NULL");
+    CHECK(s->leads != NULL || s->model->part == NULL, DEM_ERROR_ARGUMENT,
+          "dem_simulation_advance: ranks have the parts of the model, and do not make the run");
     CHECK(isfinite(t_end) && t_end >= s->seen_t, DEM_ERROR_ARGUMENT, "t_end = %g s is before the present time %g s",
           t_end, s->seen_t);
     s->advanced = s->advancing = true;

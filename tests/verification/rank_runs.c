@@ -444,6 +444,7 @@ void rank_runs_together(const rank_runs_scene *scene, int n_ranks, const domain_
 enum { DISMISSAL = 75 };
 
 typedef struct led_work {
+    slab_maker maker;
     rank_threads_work *lead;
     void *context;
     atomic_int n_lost; /* ranks that were dismissed with another number */
@@ -453,16 +454,17 @@ static void take_part(const ranks *r, void *context)
 {
     led_work *w = context;
     if (r->rank > 0) {
-        (void)atomic_fetch_add(&w->n_lost, dem_private_follow(r) != DISMISSAL);
+        (void)atomic_fetch_add(&w->n_lost, dem_private_follow(r, &w->maker) != DISMISSAL);
         return;
     }
     w->lead(r, w->context);
     dem_private_dismiss(r, DISMISSAL);
 }
 
-void rank_runs_lead(int n_ranks, rank_threads_work *lead, void *context)
+void rank_runs_lead(int n_ranks, const slab_maker *maker, rank_threads_work *lead, void *context)
 {
     led_work w = {.lead = lead, .context = context};
+    if (maker != NULL) w.maker = *maker;
     rank_threads_run(n_ranks, take_part, &w);
     assert_int_equal(atomic_load(&w.n_lost), 0);
 }
@@ -475,7 +477,7 @@ static void lead_run(const ranks *r, void *context)
 
 void rank_runs_led(const rank_runs_scene *scene, int n_ranks, const rank_runs_outcome *from, rank_runs_outcome *out)
 {
-    rank_runs_lead(n_ranks, lead_run, &(shared_run){.scene = scene, .from = from, .outcomes = out});
+    rank_runs_lead(n_ranks, NULL, lead_run, &(shared_run){.scene = scene, .from = from, .outcomes = out});
 }
 
 /* ---- comparison ---- */

@@ -4,6 +4,7 @@
 #ifndef DEM_TEST_RANK_RUNS_H
 #define DEM_TEST_RANK_RUNS_H
 
+#include "base/slab_recipe.h"
 #include "base/state.h"
 #include "harness/rank_threads.h"
 #include "model/domain_model.h"
@@ -126,8 +127,9 @@ void rank_runs_copy(const dem_model *model, int width, const double *from, doubl
 void rank_runs_together(const rank_runs_scene *scene, int n_ranks, const domain_model_shares *shares,
                         const rank_runs_outcome *from, rank_runs_outcome *out);
 
-/** Rank 0 of n does the work, in which it may lead the others, and dismisses them with a number that they get. */
-void rank_runs_lead(int n_ranks, rank_threads_work *lead, void *context);
+/** Rank 0 of n does the work, in which it may lead the others, and dismisses them with a number that they get.
+ *  \param maker  of slabs on the other ranks; NULL: none makes any */
+void rank_runs_lead(int n_ranks, const slab_maker *maker, rank_threads_work *lead, void *context);
 
 /** Rank 0 leads a run. */
 void rank_runs_led(const rank_runs_scene *scene, int n_ranks, const rank_runs_outcome *from, rank_runs_outcome *out);

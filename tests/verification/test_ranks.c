@@ -275,8 +275,8 @@ TEST(a_leader_that_asks_how_far_the_run_is_gathers_nothing)
     scene s;
     open_scene(&s, 0, DEM_METHOD_VERLET);
     watched silent = {.scene = &s, .ask = ask_nothing}, curious = {.scene = &s, .ask = ask_how_far};
-    rank_runs_lead(3, watch_as_leader, &silent);
-    rank_runs_lead(3, watch_as_leader, &curious);
+    rank_runs_lead(3, NULL, watch_as_leader, &silent);
+    rank_runs_lead(3, NULL, watch_as_leader, &curious);
     assert_ok(silent.status);
     assert_ok(curious.status);
     assert_int_equal(curious.exchanges, silent.exchanges);

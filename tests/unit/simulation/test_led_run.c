@@ -134,7 +134,7 @@ static dem_index lead(const watched *whole, const double *seconds, int *n_shared
 {
     watched led = begin_watch(whole->model);
     rank_threads_pretend(seconds);
-    rank_runs_lead(N_RANKS, watch_as_leader, &led);
+    rank_runs_lead(N_RANKS, NULL, watch_as_leader, &led);
     rank_threads_pretend(NULL);
     assert_string_equal(led.failure, "");
     assert_int_equal(led.n_steps, whole->n_steps);

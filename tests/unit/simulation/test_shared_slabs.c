@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* shared_slabs.c, whole_of_parts.c, led_run.c: rank 0 leads a run of a lattice that nobody has, and its files are those
+ * of a process that has it. */
+#include "base/checkpoint_entries.h"
+#include "base/slab_recipe.h"
+#include "harness/rank_threads.h"
+#include "simulation/led_run.h"
+#include "unit/same_frames.h"
+#include "unit/scratch.h"
+#include "unit/simulation/runs.h"
+#include "verification/rank_runs.h"
+
+#include <dem/slab.h>
+#include <dem/trajectory.h>
+
+enum { N_RANKS = 3, TEXT = 256, MOST_STRESSED = 5 };
+
+static const dem_obstacle slope = {
+    .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = slope_points, .restitution = 0.5};
+static const double down[2] = {0.5, -4.0};
+
+static const dem_probe probes[] = {{.name = "node", .kind = DEM_PROBE_NODE, .number = {4, 0}, .every = 1},
+                                   {.name = "spring", .kind = DEM_PROBE_SPRING, .number = {20, 0}, .every = 2},
+                                   {.name = "gauge", .kind = DEM_PROBE_GAUGE, .number = {1, 12}, .every = 1}};
+
+/* ---- the same lattice as a whole and in slabs ---- */
+
+static dem_status assemble(dem_lattice *lattice)
+{
+    const dem_material rubber = {.struct_size = sizeof rubber,
+                                 .youngs_modulus = 1e7,
+                                 .poissons_ratio = 1.0 / 3.0,
+                                 .density = 1050.0,
+                                 .thickness = 1.0,
+                                 .guard = 0.02};
+    const double up[2] = {0.01, 0.006};
+    TRY(dem_lattice_assemble(lattice, &rubber));
+    dem_lattice_move(lattice, 0.0, up);
+    return dem_lattice_launch(lattice, down);
+}
+
+static dem_model *make_whole(void)
+{
+    dem_lattice lattice = dem_lattice_empty();
+    assert_ok(dem_lattice_rectangle(&lattice, 0.03, 0.06, spacing));
+    assert_ok(assemble(&lattice));
+    dem_model *model = support_model(&lattice, &slope, 1);
+    dem_lattice_free(&lattice);
+    return model;
+}
+
+/* The recipe is the height of the rectangle. */
+static dem_status make_slab(void *program, const void *recipe, size_t size, dem_index part, dem_index n_parts,
+                            dem_slab *out)
+{
+    double height;
+    (void)program;
+    if (size != sizeof height) return DEM_ERROR_ARGUMENT;
+    memcpy(&height, recipe, sizeof height);
+    TRY(dem_slab_rectangle(out, 0.03, height, spacing, part, n_parts));
+    return assemble(&out->lattice);
+}
+
+static const slab_maker maker = {make_slab, NULL};
+
+/* ---- runs ---- */
+
+typedef struct written {
+    const dem_model *whole; /* NULL: rank 0 leads a run of slabs */
+    double height;          /* m, of what is made in slabs */
+    dem_options options;
+    const char *path;
+    char failure[TEXT]; /* empty: none */
+} written;
+
+static dem_trajectory_options options_with(const dem_peaks *peaks)
+{
+    dem_trajectory_options o = dem_trajectory_options_default();
+    o.frame_interval = 2e-4;
+    o.fields = DEM_FIELD_ALL & ~(uint32_t)DEM_FIELD_FRAGMENT;
+    o.n_probes = sizeof probes / sizeof *probes;
+    o.probes = probes;
+    o.peaks = peaks;
+    o.most_stressed = MOST_STRESSED;
+    return o;
+}
+
+static dem_status advance(dem_simulation *s, dem_trajectory *t, dem_peaks *peaks)
+{
+    dem_observer all[2] = {{.struct_size = sizeof *all}, {.struct_size = sizeof *all}};
+    TRY(dem_trajectory_observer(t, &all[0]));
+    TRY(dem_peaks_observer(peaks, &all[1]));
+    for (int k = 0; k < 2; k++) TRY(dem_simulation_observe(s, &all[k]));
+    TRY(dem_simulation_advance(s, t_whole));
+    return dem_trajectory_finish(t);
+}
+
+static dem_status run(written *w, const dem_model *model, const ranks *leads)
+{
+    dem_simulation *s = NULL;
+    dem_trajectory *t = NULL;
+    dem_peaks *peaks = NULL;
+    dem_status status = dem_peaks_create(&peaks, model, 3);
+    const dem_trajectory_options o = options_with(peaks);
+    if (status == DEM_OK) status = dem_simulation_create(&s, model, &w->options);
+    if (status == DEM_OK && leads != NULL) status = dem_private_lead(s, leads, &w->options, NULL);
+    if (status == DEM_OK) status = dem_trajectory_create(&t, w->path, s, &o);
+    if (status == DEM_OK) status = advance(s, t, peaks);
+    dem_trajectory_destroy(t);
+    dem_simulation_destroy(s);
+    dem_peaks_destroy(peaks);
+    return status;
+}
+
+static dem_status run_slabs(written *w, const ranks *r)
+{
+    dem_model *model = NULL;
+    const slab_recipe recipe = {
+        .bytes = &w->height, .size = sizeof w->height, .obstacles = &slope, .n_obstacles = 1, .options = &w->options};
+    TRY(dem_private_lead_slabs(&model, r, &maker, &recipe));
+    const dem_status status = run(w, model, r);
+    dem_model_destroy(model);
+    return status;
+}
+
+static void lead(const ranks *r, void *context)
+{
+    written *w = context;
+    const dem_status status = w->whole != NULL ? run(w, w->whole, r) : run_slabs(w, r);
+    if (status != DEM_OK) (void)snprintf(w->failure, TEXT, "%s", dem_status_message());
+}
+
+static written prepare(const char *path)
+{
+    written w = {.height = 0.06, .options = dem_options_default(), .path = path};
+    w.options.checkpoint_steps = 8;
+    w.options.bodies = DEM_BODIES_NONE;
+    return w;
+}
+
+TEST(a_run_of_slabs_has_the_frames_of_a_process_that_has_the_whole)
+{
+    scratch_folder folder;
+    folder_open(&folder);
+    const char *one = folder_file(&folder, "one.vtkhdf"), *led = folder_file(&folder, "led.vtkhdf");
+    for (const char *const *n = (const char *const[]){"one.body.vtkhdf", "led.body.vtkhdf", "one.obstacle.vtkhdf",
+                                                      "led.obstacle.vtkhdf", NULL};
+         *n != NULL; n++)
+        (void)folder_file(&folder, *n);
+    dem_model *model = make_whole();
+    written alone = prepare(one), slabs = prepare(led);
+    assert_ok(run(&alone, model, NULL));
+    rank_runs_lead(N_RANKS, &maker, lead, &slabs);
+    assert_string_equal(slabs.failure, "");
+    same_frames_check(one, led);
+    dem_model_destroy(model);
+    folder_close(&folder);
+}
+
+/* ---- going on ---- */
+
+typedef struct resumed {
+    written of;
+    dem_checkpoint *from;
+    double *state; /* [2][nodes][2] at the end */
+} resumed;
+
+static dem_status go_on(resumed *w, const dem_model *model, const ranks *leads)
+{
+    const dem_index n = 2 * ask_sizes(model).n_nodes;
+    dem_simulation *s = NULL;
+    w->state = calloc(2 * (size_t)n, sizeof *w->state);
+    dem_status status = dem_simulation_resume(&s, model, &w->of.options, w->from);
+    if (status == DEM_OK && leads != NULL) status = dem_private_lead(s, leads, &w->of.options, w->from);
+    if (status == DEM_OK) status = dem_simulation_advance(s, t_whole);
+    if (status == DEM_OK) status = dem_simulation_gather(s, w->state, w->state + n);
+    dem_simulation_destroy(s);
+    return status;
+}
+
+static void lead_on(const ranks *r, void *context)
+{
+    resumed *w = context;
+    dem_model *model = NULL;
+    const slab_recipe recipe = {.bytes = &w->of.height,
+                                .size = sizeof w->of.height,
+                                .obstacles = &slope,
+                                .n_obstacles = 1,
+                                .options = &w->of.options};
+    dem_status status = dem_private_lead_slabs(&model, r, &maker, &recipe);
+    if (status == DEM_OK) status = go_on(w, model, r);
+    if (status != DEM_OK) (void)snprintf(w->of.failure, TEXT, "%s", dem_status_message());
+    dem_model_destroy(model);
+}
+
+static dem_checkpoint *checkpoint_half_way(const dem_model *model, const dem_options *options)
+{
+    dem_checkpoint *copy;
+    dem_simulation *s = simulate(model, options);
+    assert_ok(dem_simulation_advance(s, 0.5 * t_whole));
+    assert_ok(dem_checkpoint_create(&copy));
+    assert_ok(checkpoint_entries_copy(copy, dem_simulation_checkpoint(s)));
+    dem_simulation_destroy(s);
+    return copy;
+}
+
+TEST(a_run_of_slabs_goes_on_from_the_checkpoint_of_one_process)
+{
+    dem_model *model = make_whole();
+    resumed alone = {.of = prepare("none.vtkhdf")}, slabs = alone;
+    const size_t size = 4 * (size_t)ask_sizes(model).n_nodes * sizeof(double);
+    alone.from = slabs.from = checkpoint_half_way(model, &alone.of.options);
+    assert_ok(go_on(&alone, model, NULL));
+    rank_runs_lead(N_RANKS, &maker, lead_on, &slabs);
+    assert_string_equal(slabs.of.failure, "");
+    assert_memory_equal(alone.state, slabs.state, size);
+    free(alone.state);
+    free(slabs.state);
+    dem_checkpoint_destroy(alone.from);
+    dem_model_destroy(model);
+}
+
+TEST(a_recipe_that_one_rank_cannot_follow_is_refused_on_all)
+{
+    written w = prepare("none.vtkhdf");
+    w.height = spacing; /* too few rows for a slab of each */
+    rank_runs_lead(N_RANKS + 1, &maker, lead, &w);
+    assert_non_null(strstr(w.failure, "rows"));
+}
+
+int main(void)
+{
+    return test_run();
+}
