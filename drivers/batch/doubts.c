@@ -72,22 +72,26 @@ void doubts_of_rigid(run_log *log, const deck *d, const dem_lattice *lattice)
     }
 }
 
+static bool has_triangles(const dem_simulation *simulation)
+{
+    return ask_sizes(dem_simulation_model(simulation)).n_triangles > 0;
+}
+
 /* The default of `bodies` has become 'none' (deck/surfaces.h). */
 void doubts_of_surfaces(run_log *log, const deck *d, const dem_simulation *simulation)
 {
     const schema_instance *contact = schema_get(&d->groups, "contact", 0);
     const bool settled = contact != NULL && !schema_value_of(contact, "bodies")->given &&
                          ask_options(simulation).bodies == DEM_BODIES_NONE;
-    if (settled && dem_model_lattice(dem_simulation_model(simulation))->n_triangles > 0)
+    if (settled && has_triangles(simulation))
         run_log_warn(log, "bodies do not touch each other, since one of them has no triangles; say bodies = 'none' in "
                           "&contact if that is meant");
 }
 
 /* Pieces stay of the body that they come from. Who gives 'none' wants no contact of bodies at all. */
-void doubts_of_pieces(run_log *log, const dem_simulation *simulation)
+void doubts_of_pieces(run_log *log, const deck *d, const dem_simulation *simulation)
 {
-    const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
-    if (ask_options(simulation).bodies == DEM_BODIES_OTHERS && l->n_triangles > 0 && ask_may_break(l))
+    if (ask_options(simulation).bodies == DEM_BODIES_OTHERS && has_triangles(simulation) && d->facts.may_break)
         run_log_warn(log, "pieces of one body pass through each other with bodies = 'others', as do the faces of a "
                           "crack; bodies = 'all' in &contact lets them touch");
 }

@@ -16,7 +16,7 @@ void doubts_of_rigid(run_log *log, const deck *d, const dem_lattice *lattice);
 void doubts_of_surfaces(run_log *log, const deck *d, const dem_simulation *simulation);
 
 /** Warns where bodies may break, and touch others but not themselves: so do not their pieces. */
-void doubts_of_pieces(run_log *log, const dem_simulation *simulation);
+void doubts_of_pieces(run_log *log, const deck *d, const dem_simulation *simulation);
 
 /** Warns of a fixed step with which the run may overflow. */
 void doubts_of_step(run_log *log, const dem_simulation *simulation);

@@ -17,9 +17,9 @@ static void keep_larger(fracture_report_load *largest, const double *force, dem_
 /* The state at a break is that after it: the load of the step before is the last that all had to carry. */
 void fracture_report_follow(fracture_report *r, const dem_simulation *simulation)
 {
-    const dem_model *model = dem_simulation_model(simulation);
-    if (r->breaks > 0 || !ask_may_break(dem_model_lattice(model))) return;
-    const dem_index n_boundaries = ask_options(simulation).n_boundaries, n_obstacles = ask_sizes(model).n_obstacles;
+    if (r->breaks > 0) return;
+    const dem_index n_boundaries = ask_options(simulation).n_boundaries;
+    const dem_index n_obstacles = ask_sizes(dem_simulation_model(simulation)).n_obstacles;
     r->load = (fracture_report_load){0};
     for (dem_index k = 0; k < n_boundaries; k++) keep_larger(&r->load, ask_boundary(simulation, k).force, k + 1, 0);
     for (dem_index k = 0; k < n_obstacles; k++) keep_larger(&r->load, ask_obstacle(simulation, k).reaction, 0, k + 1);

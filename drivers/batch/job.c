@@ -159,7 +159,7 @@ static dem_status resume(job *j)
  * of the history are rarer than steps; 0: all are looked at. What may break is loaded until it does. */
 static dem_index between_looks(const job *j)
 {
-    const bool all = !(j->deck.history_interval > 0.0) || ask_may_break(dem_model_lattice(j->model));
+    const bool all = !(j->deck.history_interval > 0.0) || j->deck.facts.may_break;
     return !all && ask_options(j->simulation).method == DEM_METHOD_VERLET ? 16 : 0;
 }
 

@@ -535,7 +535,7 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
     doubts_of_lattices(log, d);
     doubts_of_rigid(log, d, dem_model_lattice(model));
     doubts_of_surfaces(log, d, simulation);
-    doubts_of_pieces(log, simulation);
+    doubts_of_pieces(log, d, simulation);
     warn_rest_speed(log, &o);
     doubts_of_step(log, simulation);
     doubts_of_overlap(log, simulation);

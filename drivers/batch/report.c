@@ -192,7 +192,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     if (surface_report_follow(&r->so_far.surface_report, simulation, now.t))
         surface_report_warn(&r->so_far.surface_report, r->log);
     rebound_follow(&r->so_far.rebound, simulation, &now);
-    fracture_report_follow(&r->so_far.fracture_report, simulation);
+    if (r->deck->facts.may_break) fracture_report_follow(&r->so_far.fracture_report, simulation);
     if (looks) surface_report_look(&r->so_far.surface_report, simulation);
     if (looks) watch_ledger(r, simulation, &now);
     if (looks) r->so_far.looked_t = now.t;

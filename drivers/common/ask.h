@@ -18,12 +18,6 @@ static inline dem_model_size ask_sizes(const dem_model *model)
     ASK(dem_model_size, dem_model_sizes(model, &out));
 }
 
-/** Whether something of a lattice breaks by itself. */
-static inline bool ask_may_break(const dem_lattice *lattice)
-{
-    return lattice->strength != NULL || lattice->critical_stretch != NULL;
-}
-
 static inline dem_csr ask_csr(const dem_model *model)
 {
     ASK(dem_csr, dem_model_csr(model, &out));

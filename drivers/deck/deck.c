@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask.h"
 #include "body.h"
 #include "body_files.h"
 #include "body_friction.h"
@@ -380,11 +379,10 @@ deck_status deck_parse(deck *out, const char *path, const setting *settings, siz
  * too, and where something may soften damage. */
 static void settle_breaks(deck *d)
 {
-    const bool may_break = ask_may_break(&d->lattice);
-    d->breaks = d->breaks && may_break;
-    d->fragments = d->fragments && may_break;
+    d->breaks = d->breaks && d->facts.may_break;
+    d->fragments = d->fragments && d->facts.may_break;
     if (d->breaks) d->fields |= DEM_FIELD_FRAGMENT;
-    if (d->breaks && d->lattice.softening != NULL) d->fields |= DEM_FIELD_DAMAGE;
+    if (d->breaks && d->facts.may_soften) d->fields |= DEM_FIELD_DAMAGE;
 }
 
 deck_status deck_build(deck *d, namelist_errors *errors)
@@ -394,6 +392,7 @@ deck_status deck_build(deck *d, namelist_errors *errors)
     bool good = d->obstacles != NULL;
     if (good && errors->n == 0) good = set_bodies(d, &d->groups, d->folder, errors);
     if (good && errors->n == 0) good = set_texts(d, &d->groups, d->folder, errors);
+    d->facts = lattice_facts_of(&d->lattice);
     settle_breaks(d);
     return conclude(d, good ? DECK_OK : DECK_MEMORY, errors);
 }

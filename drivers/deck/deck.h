@@ -7,6 +7,7 @@
 #include <dem/trajectory.h>
 
 #include "body.h"
+#include "lattice_facts.h"
 #include "schema.h"
 #include "setting.h"
 
@@ -42,6 +43,7 @@ typedef struct deck {
     uint64_t hash;       /* FNV-1a of `physics`, in which files of bodies stand as hashes of their bytes: the problem */
     uint64_t run_hash;   /* the same with every key: the run */
     dem_lattice lattice; /* all bodies, in the order of the deck */
+    lattice_facts facts; /* of it */
     body_facts *bodies;  /* [n_bodies], one for each group */
     size_t n_bodies;
     dem_obstacle *obstacles; /* [n_obstacles] */

@@ -282,7 +282,7 @@ estimate estimate_run(const deck *d, const dem_simulation *simulation, double du
                         .bodies = (double)size.n_bodies,
                         .obstacles = (double)size.n_obstacles,
                         .boundaries = (double)d->n_boundaries,
-                        .may_break = ask_may_break(dem_model_lattice(model))};
+                        .may_break = d->facts.may_break};
     estimate e = {.step = ask_options(simulation).max_step};
     const double undamped = default_step(d, simulation);
     if (e.step < undamped * (1.0 - 1e-9)) e.undamped = undamped; /* rounding is no damping */

@@ -47,7 +47,7 @@ void looks_settle(deck *d, const dem_simulation *simulation)
 {
     const dem_model *model = dem_simulation_model(simulation);
     const dem_method method = d->options.method;
-    const double nodes = ask_may_break(dem_model_lattice(model)) ? 0.0 : (double)ask_sizes(model).n_nodes;
+    const double nodes = d->facts.may_break ? 0.0 : (double)ask_sizes(model).n_nodes;
     if (d->history_interval < 0.0) d->history_interval = looks_row_interval(method, nodes, longest_step(simulation));
     if (d->peak_every < 0) d->peak_every = looks_peak_every(method, nodes);
 }

@@ -132,6 +132,7 @@ static size_t count_pieces(bool breaks, dem_bodies bodies)
 {
     const dem_material solid =
         SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 1.0);
+    const deck d = {.facts = {.may_break = breaks}};
     dem_options options = dem_options_default();
     run_log log = {.out = tmpfile()};
     support_run run;
@@ -142,7 +143,7 @@ static size_t count_pieces(bool breaks, dem_bodies bodies)
     assert_true((body.strength != NULL) == breaks);
     for (dem_index t = 0; breaks && t < body.n_triangles; t++) body.strength[t] = 1e6;
     support_open(&run, &body, NULL, 0, &options);
-    doubts_of_pieces(&log, run.simulation);
+    doubts_of_pieces(&log, &d, run.simulation);
     support_close(&run);
     read_log(&log);
     return log.n_warnings;
