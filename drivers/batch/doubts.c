@@ -62,9 +62,10 @@ static const char *law_without_effect(const schema_instance *obstacle)
                                                                                                    : NULL;
 }
 
-void doubts_of_rigid(run_log *log, const deck *d, const dem_lattice *lattice)
+void doubts_of_rigid(run_log *log, const deck *d)
 {
-    for (size_t k = 0; k < schema_count(&d->groups, "obstacle") && rigid_keys_node(lattice) >= 0; k++) {
+    const size_t n = lattice_facts_any_rigid(&d->facts) ? schema_count(&d->groups, "obstacle") : 0;
+    for (size_t k = 0; k < n; k++) {
         const char *what = law_without_effect(schema_get(&d->groups, "obstacle", k));
         if (what == NULL) continue;
         run_log_warn(log, "the %s of obstacle %zu does not act on rigid bodies", what, k + 1);

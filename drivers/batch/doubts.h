@@ -10,7 +10,7 @@
 void doubts_of_lattices(run_log *log, const deck *d);
 
 /** Warns of restitution and of a law of friction that do not act on rigid bodies. */
-void doubts_of_rigid(run_log *log, const deck *d, const dem_lattice *lattice);
+void doubts_of_rigid(run_log *log, const deck *d);
 
 /** Warns where bodies with triangles do not touch each other because of bodies without. */
 void doubts_of_surfaces(run_log *log, const deck *d, const dem_simulation *simulation);

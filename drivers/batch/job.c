@@ -439,7 +439,7 @@ static bool builds(job *j)
     const dem_status status = build(j);
     const bool is_created = j->simulation != NULL; /* then what fails is to share it out */
     if (status != DEM_ERROR_MODEL || j->model == NULL || is_created) return passes(j, status, j->deck.path);
-    refusal_explain(&errors, &j->deck.groups, j->model, &j->options);
+    refusal_explain(&errors, &j->deck, j->model, &j->options);
     report_errors(j, EXIT_INVALID, &errors);
     return false;
 }

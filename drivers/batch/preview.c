@@ -211,19 +211,10 @@ static void print_modulus(FILE *out, const dem_constants *c, bool slice)
                   slice ? " in plane strain" : "", c->anisotropy, c->longitudinal_speed, c->transverse_speed);
 }
 
-/* Flags of a body's nodes, as far as they say that it is rigid. */
-static unsigned flags_of(const dem_model *model, dem_index b)
-{
-    const dem_lattice *l = dem_model_lattice(model);
-    for (dem_index i = 0; i < l->n_nodes; i++)
-        if (l->body[i] == b) return l->flags[i] & (DEM_NODE_RIGID | DEM_NODE_GUIDE_X | DEM_NODE_GUIDE_Y);
-    return 0;
-}
-
 /* A rigid body has none. */
-static void print_rigid(FILE *out, unsigned flags)
+static void print_rigid(FILE *out, const lattice_body *body)
 {
-    const bool x = (flags & DEM_NODE_GUIDE_X) != 0, y = (flags & DEM_NODE_GUIDE_Y) != 0;
+    const bool x = (body->rigid & DEM_NODE_GUIDE_X) != 0, y = (body->rigid & DEM_NODE_GUIDE_Y) != 0;
     (void)fprintf(out, "none, it is rigid%s\n", x ? " and moves along x" : (y ? " and moves along y" : ""));
 }
 
@@ -234,14 +225,14 @@ static bool is_wanted(const run_log *log)
 }
 
 /* As the library measures them, by loading the model. A body that is not listed may still be too fast. */
-static void print_body_constants(run_log *log, const dem_model *model, listed_body body)
+static void print_body_constants(run_log *log, const deck *d, const dem_model *model, listed_body body)
 {
     const bool listed = log->verbose || body.number < most_in_short;
-    const unsigned flags = flags_of(model, body.first);
+    const lattice_body *known = &d->facts.bodies[body.first];
     dem_constants c = {.struct_size = sizeof c};
     if (listed) (void)fprintf(log->out, "constants  body %lld: ", (long long)body.number + 1);
-    if (listed && flags != 0) print_rigid(log->out, flags);
-    if (flags != 0) return;
+    if (listed && known->rigid != 0) print_rigid(log->out, known);
+    if (known->rigid != 0) return;
     const dem_status status = dem_model_constants(model, body.first, &c);
     if (listed && status != DEM_OK) (void)fprintf(log->out, "not measured: %s\n", dem_status_message());
     if (listed && status == DEM_OK) print_modulus(log->out, &c, body.slice);
@@ -254,7 +245,7 @@ static void print_constants(run_log *log, const deck *d, const dem_model *model)
     const dem_index n_bodies = ask_sizes(model).n_bodies;
     const dem_index n = has_bodies_of_groups(d, n_bodies) ? (dem_index)d->n_bodies : n_bodies;
     for (dem_index k = 0; k < n && k < most_listed && is_wanted(log); k++)
-        print_body_constants(log, model, list_body(d, n_bodies, k));
+        print_body_constants(log, d, model, list_body(d, n_bodies, k));
     if (!log->verbose && n > most_in_short)
         (void)fprintf(out, "constants  of %lld more bodies: see --verbose\n", (long long)n - most_in_short);
     else if (n > most_listed)
@@ -533,7 +524,7 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
     print_measured(log, d, model);
     print_time(log->out, d, simulation, fmin(expected, d->t_end), &needed);
     doubts_of_lattices(log, d);
-    doubts_of_rigid(log, d, dem_model_lattice(model));
+    doubts_of_rigid(log, d);
     doubts_of_surfaces(log, d, simulation);
     doubts_of_pieces(log, d, simulation);
     warn_rest_speed(log, &o);

@@ -9,7 +9,6 @@
 #include "copies.h"
 #include "deck_numbers.h"
 #include "outcome.h"
-#include "rigid_keys.h"
 
 /* Which key a refusal is about, and what helps. */
 typedef struct advice {
@@ -27,11 +26,10 @@ static bool goes_without_contact(const dem_model *model, dem_options options)
     return goes;
 }
 
-static advice advise(const schema_deck *groups, const schema_instance *body, const dem_model *model,
-                     const dem_options *options)
+static advice advise(const deck *d, const schema_instance *body, const dem_model *model, const dem_options *options)
 {
-    const namelist_place bodies = schema_place(schema_get(groups, "contact", 0), "bodies");
-    if (rigid_keys_node(dem_model_lattice(model)) >= 0) return (advice){bodies, ""};
+    const namelist_place bodies = schema_place(schema_get(&d->groups, "contact", 0), "bodies");
+    if (lattice_facts_any_rigid(&d->facts)) return (advice){bodies, ""};
     if (options->bodies != DEM_BODIES_NONE && goes_without_contact(model, *options))
         return (advice){bodies, "; bodies = 'none' in &contact lets bodies overlap"};
     return (advice){schema_place(body, "file"),
@@ -39,14 +37,14 @@ static advice advise(const schema_deck *groups, const schema_instance *body, con
 }
 
 /* Where the bodies of the deck are those of the model, they get the numbers of the deck. */
-void refusal_explain(namelist_errors *errors, const schema_deck *groups, const dem_model *model,
-                     const dem_options *options)
+void refusal_explain(namelist_errors *errors, const deck *d, const dem_model *model, const dem_options *options)
 {
+    const schema_deck *groups = &d->groups;
     char reason[OUTCOME_MESSAGE], message[OUTCOME_MESSAGE];
     (void)snprintf(reason, sizeof reason, "%s", dem_status_message()); /* before another simulation is tried */
     const bool known = ask_sizes(model).n_bodies == (dem_index)copies_total(groups);
     const schema_instance *body = known ? deck_numbers_body(reason, groups) : schema_get(groups, "body", 0);
-    const advice of = advise(groups, body, model, options);
+    const advice of = advise(d, body, model, options);
     if (known) deck_numbers_translate(message, sizeof message, reason, groups);
     namelist_errors_add(errors, of.place, "%s%s%s", known ? message : reason,
                         known ? "" : " (bodies are counted from 0 here)", of.remedy);

@@ -290,16 +290,12 @@ static void write_loads(json *j, const dem_simulation *simulation)
     json_close(j, ']');
 }
 
-/* Numbers of the rigid bodies, from 0; the nodes of a body follow each other. */
-static void write_rigid(json *j, const dem_lattice *lattice)
+/* Numbers of the rigid bodies, from 0. */
+static void write_rigid(json *j, const lattice_facts *facts)
 {
-    dem_index last = -1;
     json_open(j, "rigid", '[');
-    for (dem_index i = 0; i < lattice->n_nodes; i++) {
-        if (!(lattice->flags[i] & DEM_NODE_RIGID) || lattice->body[i] == last) continue;
-        last = lattice->body[i];
-        json_integer(j, NULL, last);
-    }
+    for (dem_index b = 0; b < facts->n_bodies; b++)
+        if (facts->bodies[b].rigid != 0) json_integer(j, NULL, b);
     json_close(j, ']');
 }
 
@@ -340,7 +336,7 @@ static void write_run(json *j, const result *r)
     if (r->report->peaks != NULL) write_spring_peak(j, r->report);
     write_surfaces(j, &r->report->so_far.surface_report, r->simulation);
     write_loads(j, r->simulation);
-    write_rigid(j, dem_model_lattice(dem_simulation_model(r->simulation)));
+    write_rigid(j, &r->read->facts);
     write_overlap(j, r->simulation);
     json_real(j, "history_interval", r->read->history_interval);
     json_integer(j, "peak_every", r->read->peak_every);

@@ -392,7 +392,7 @@ deck_status deck_build(deck *d, namelist_errors *errors)
     bool good = d->obstacles != NULL;
     if (good && errors->n == 0) good = set_bodies(d, &d->groups, d->folder, errors);
     if (good && errors->n == 0) good = set_texts(d, &d->groups, d->folder, errors);
-    d->facts = lattice_facts_of(&d->lattice);
+    if (good && errors->n == 0) good = lattice_facts_find(&d->facts, &d->lattice);
     settle_breaks(d);
     return conclude(d, good ? DECK_OK : DECK_MEMORY, errors);
 }
@@ -403,6 +403,7 @@ void deck_free(deck *d)
     schema_free(&d->groups);
     probes_free(d->probes, (size_t)d->n_probes);
     dem_lattice_free(&d->lattice);
+    lattice_facts_free(&d->facts);
     free(d->bodies);
     loading_free(d->boundaries, d->n_boundaries);
     free(d->body_friction);

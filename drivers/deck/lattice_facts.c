@@ -1,10 +1,48 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+/* Each fact is found of one node, or spring, after the other, in their order: of a lattice in pieces it is the same. */
 #include "lattice_facts.h"
 
-#include <stddef.h>
+#include <stdlib.h>
 
-lattice_facts lattice_facts_of(const dem_lattice *lattice)
+static const unsigned rigid_flags = DEM_NODE_RIGID | DEM_NODE_GUIDE_X | DEM_NODE_GUIDE_Y;
+
+static dem_index body_of(const dem_lattice *l, dem_index node)
 {
-    const bool may_break = lattice->strength != NULL || lattice->critical_stretch != NULL;
-    return (lattice_facts){.may_break = may_break, .may_soften = may_break && lattice->softening != NULL};
+    return l->body != NULL ? l->body[node] : 0;
+}
+
+static unsigned flags_of(const dem_lattice *l, dem_index node)
+{
+    return l->flags != NULL ? l->flags[node] : 0;
+}
+
+static bool find_bodies(lattice_facts *f, const dem_lattice *l)
+{
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        if (body_of(l, i) >= f->n_bodies) f->n_bodies = body_of(l, i) + 1;
+    f->bodies = calloc((size_t)f->n_bodies + 1, sizeof *f->bodies);
+    for (dem_index i = 0; i < l->n_nodes && f->bodies != NULL; i++)
+        f->bodies[body_of(l, i)].rigid |= flags_of(l, i) & rigid_flags;
+    return f->bodies != NULL;
+}
+
+bool lattice_facts_find(lattice_facts *out, const dem_lattice *lattice)
+{
+    *out = (lattice_facts){0};
+    out->may_break = lattice->strength != NULL || lattice->critical_stretch != NULL;
+    out->may_soften = out->may_break && lattice->softening != NULL;
+    return find_bodies(out, lattice);
+}
+
+void lattice_facts_free(lattice_facts *facts)
+{
+    free(facts->bodies);
+    *facts = (lattice_facts){0};
+}
+
+bool lattice_facts_any_rigid(const lattice_facts *facts)
+{
+    for (dem_index b = 0; b < facts->n_bodies; b++)
+        if (facts->bodies[b].rigid != 0) return true;
+    return false;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is known of a deck's lattice once it is built: nothing that comes later looks at its arrays, so that they need not
- * be in one process. */
+/* What is known of a deck's lattice once it is built: nothing that comes later looks at its arrays, so that no process
+ * needs to have all of them. */
 #ifndef DEM_LATTICE_FACTS_H
 #define DEM_LATTICE_FACTS_H
 
@@ -8,11 +8,23 @@
 
 #include <dem/lattice.h>
 
+/* A body of the lattice, and of its model. */
+typedef struct lattice_body {
+    unsigned rigid; /* DEM_NODE_RIGID, with DEM_NODE_GUIDE_X or DEM_NODE_GUIDE_Y of a guided one; 0: it is elastic */
+} lattice_body;
+
 typedef struct lattice_facts {
-    bool may_break;  /* something of it breaks by itself, */
-    bool may_soften; /* and softens before */
+    bool may_break;       /* something of it breaks by itself, */
+    bool may_soften;      /* and softens before */
+    lattice_body *bodies; /* [n_bodies] */
+    dem_index n_bodies;
 } lattice_facts;
 
-lattice_facts lattice_facts_of(const dem_lattice *lattice);
+/* Of a lattice of which a model can be made. False when memory runs out. Free with lattice_facts_free() in any case. */
+bool lattice_facts_find(lattice_facts *out, const dem_lattice *lattice);
+void lattice_facts_free(lattice_facts *facts);
+
+/* Whether any body is rigid. */
+bool lattice_facts_any_rigid(const lattice_facts *facts);
 
 #endif

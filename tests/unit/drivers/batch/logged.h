@@ -29,6 +29,7 @@ static inline void follow(logged *l, bool terminal, double t_end)
     l->log = (run_log){.out = tmpfile(), .terminal = terminal, .verbose = true};
     assert_non_null(l->log.out);
     l->deck = (deck){.t_end = t_end, .closure = 1e-2};
+    assert_true(lattice_facts_find(&l->deck.facts, dem_model_lattice(l->run.model)));
     report_start(&l->report, &l->log, &l->deck);
     const dem_observer observer = report_observer(&l->report, 0);
     assert_ok(dem_simulation_observe(l->run.simulation, &observer));
@@ -59,6 +60,7 @@ static inline logged *make_logged(void)
 static inline void free_logged(logged **l)
 {
     report_end(&(*l)->report);
+    lattice_facts_free(&(*l)->deck.facts);
     assert_int_equal(fclose((*l)->log.out), 0);
     support_close(&(*l)->run);
     free(*l);

@@ -76,7 +76,7 @@ static size_t count_rigid_doubts(const char *body, const char *floor)
                    "&body shape = 'disc', radius = 0.02, spacing = 4e-3, position = 0, 0%s /\n",
                    floor, body);
     CLEANUP(deck_free) deck d = deck_text_good(keys);
-    doubts_of_rigid(&log, &d, &d.lattice);
+    doubts_of_rigid(&log, &d);
     read_log(&log);
     return log.n_warnings;
 }

@@ -10,12 +10,20 @@
         .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .measure = true, __VA_ARGS__              \
     }
 
+/* With the facts of the lattice that is run. */
+static void print_preview(logged *l, const deck *d, const char *output)
+{
+    deck built = *d;
+    built.facts = l->deck.facts;
+    preview_print(&l->log, &built, l->run.simulation, output);
+}
+
 TEST(the_preview_tells_what_is_about_to_run)
 {
     char name[] = "drops/drop.nml", title[] = "A title";
     const deck d = DECK(.hash = 0xabc);
     CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
-    preview_print(&l->log, &d, l->run.simulation, "there/drop.vtkhdf");
+    print_preview(l, &d, "there/drop.vtkhdf");
     read_log(l);
     assert_non_null(strstr(l->text, "drops/drop.nml"));
     assert_non_null(strstr(l->text, "A title"));
@@ -51,7 +59,7 @@ TEST(the_preview_warns_of_a_rest_speed_that_the_penetration_tolerance_keeps_up)
         CLEANUP(dem_lattice_free) dem_lattice node = support_lattice(1, x, &one, 0, NULL, 0.0, 0.0, NULL);
         support_open(&l->run, &node, NULL, 0, &options);
         follow(l, false, d.t_end);
-        preview_print(&l->log, &d, l->run.simulation, NULL);
+        print_preview(l, &d, NULL);
         read_log(l);
         const char *message = strstr(
             l->text,
@@ -71,7 +79,7 @@ TEST(the_preview_tells_what_is_probed_and_where)
     CLEANUP(free_logged) logged *l = press(d.t_end);
     const dem_lattice *lattice = dem_model_lattice(l->run.model);
     const double *a = lattice->x + 2 * lattice->ends[2], *b = lattice->x + 2 * lattice->ends[3];
-    preview_print(&l->log, &d, l->run.simulation, NULL);
+    print_preview(l, &d, NULL);
     read_log(l);
     assert_non_null(strstr(l->text, "\nprobe      foot: node 2 at (1, 0) m\n"));
     assert_non_null(strstr(l->text, "\nprobe      span: gauge from node 0 to 2 at (0, 0) m\n"));
@@ -97,7 +105,7 @@ TEST(the_preview_tells_what_was_measured_of_each_body)
     assert_ok(dem_lattice_append(&lattice, &node));
     support_open(&l->run, &lattice, NULL, 0, &options);
     follow(l, false, d.t_end);
-    preview_print(&l->log, &d, l->run.simulation, NULL);
+    print_preview(l, &d, NULL);
     read_log(l);
     assert_close(number_in(l->text, "constants", "E"), 1e7, 1.0);
     assert_close(number_in(l->text, "constants", "nu"), 0.1, 1e-6);
@@ -123,7 +131,7 @@ TEST(the_preview_tells_the_constants_of_a_slice)
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(4.0, 4.0, 1.0, &slice);
     support_open(&l->run, &lattice, NULL, 0, &options);
     follow(l, false, d.t_end);
-    preview_print(&l->log, &d, l->run.simulation, NULL);
+    print_preview(l, &d, NULL);
     read_log(l);
     assert_non_null(strstr(l->text, "\nconstants  body 1: E 1e+07 Pa, nu 0.45 in plane strain, anisotropy 1.0000, "));
 }
@@ -148,7 +156,7 @@ TEST(the_preview_tells_the_constants_of_copies_once)
     assert_ok(dem_lattice_append(&lattice, &other));
     support_open(&l->run, &lattice, NULL, 0, &options);
     follow(l, false, d.t_end);
-    preview_print(&l->log, &d, l->run.simulation, NULL);
+    print_preview(l, &d, NULL);
     read_log(l);
     assert_non_null(strstr(l->text, "\nconstants  body 1: E 1e+07 Pa"));
     assert_non_null(strstr(l->text, "\nconstants  body 2: E 2e+06 Pa"));
@@ -177,7 +185,7 @@ TEST(the_preview_tells_how_bodies_came_out)
     };
     const deck d = DECK(.bodies = bodies, .n_bodies = 2);
     CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
-    preview_print(&l->log, &d, l->run.simulation, NULL);
+    print_preview(l, &d, NULL);
     read_log(l);
     assert_non_null(strstr(l->text, "\nmass       body 1: 2.5 kg, of the true shape 4 kg (ratio 0.6250)\n"));
     assert_non_null(strstr(l->text, "\npores      body 1: 7, of porosity 0.2500\n"));
@@ -210,7 +218,7 @@ TEST(a_long_list_of_bodies_is_cut)
     for (int k = 0; k < 17; k++) bodies[k] = (body_facts){.mass = 1.0, .true_mass = 2.0};
     const deck d = DECK(.bodies = bodies, .n_bodies = 17);
     CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
-    preview_print(&l->log, &d, l->run.simulation, NULL);
+    print_preview(l, &d, NULL);
     read_log(l);
     assert_non_null(strstr(l->text, "mass       body 16: "));
     assert_null(strstr(l->text, "mass       body 17: "));
@@ -222,7 +230,7 @@ TEST(without_an_output_none_is_reported)
     char name[] = "a.nml", title[] = "";
     const deck d = DECK(.hash = 0);
     CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
-    preview_print(&l->log, &d, l->run.simulation, NULL);
+    print_preview(l, &d, NULL);
     read_log(l);
     assert_non_null(strstr(l->text, "\noutput     26 frames, about "));
     assert_true(has_line(l->text, "deck"));
@@ -261,7 +269,7 @@ TEST(details_are_left_out_unless_they_are_wanted)
     for (int verbose = 0; verbose < 2; verbose++) {
         CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
         l->log.verbose = verbose;
-        preview_print(&l->log, &d, l->run.simulation, "there/a.vtkhdf");
+        print_preview(l, &d, "there/a.vtkhdf");
         read_log(l);
         expect_topics(l->text, verbose ? "dem deck lattice mass contact constants time impacts scales method kernel "
                                          "formula looks output"
@@ -273,7 +281,7 @@ static void print_header(logged *l)
 {
     char name[] = "a.nml", title[] = "";
     const deck d = DECK(.hash = 0);
-    preview_print(&l->log, &d, l->run.simulation, NULL);
+    print_preview(l, &d, NULL);
     read_log(l);
 }
 
@@ -361,7 +369,7 @@ TEST(the_short_log_has_parts_and_no_masses_of_bodies)
     const deck d = DECK(.bodies = &body, .n_bodies = 1);
     CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
     l->log.verbose = false;
-    preview_print(&l->log, &d, l->run.simulation, NULL);
+    print_preview(l, &d, NULL);
     read_log(l);
     assert_non_null(strstr(l->text, " kg (0.7500 of the true shape), spacing "));
     assert_true(has_line(l->text, "parts"));

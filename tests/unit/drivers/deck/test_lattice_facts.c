@@ -4,25 +4,39 @@
 
 #include "unit/deck_text.h"
 
-#define HEAD  "&run t_end = 1 /\n&obstacle points = -9, -9, 9, -9 /\n&material youngs_modulus = 1e7, density = 1000"
-#define BLOCK " /\n&body shape = 'rectangle', size = 0.04, 0.04, spacing = 1e-2 /\n"
-
-static lattice_facts facts_of(const char *text)
-{
-    CLEANUP(deck_free) deck d = deck_text_good(text);
-    return d.facts;
-}
+#define HEAD  "&run t_end = 1 /\n&solver max_step = 1e-3 /\n&material youngs_modulus = 1e7, density = 1000"
+#define BLOCK " /\n&body shape = 'rectangle', size = 0.04, 0.04, spacing = 1e-2"
 
 TEST(what_has_a_limit_may_break_and_may_soften_before)
 {
-    const lattice_facts none = facts_of(HEAD BLOCK);
-    const lattice_facts stretch = facts_of(HEAD ", fracture = 'stretch', critical_stretch = 0.1" BLOCK);
-    const lattice_facts stress = facts_of(HEAD ", fracture = 'stress', strength = 1e5" BLOCK);
-    const lattice_facts soft = facts_of(HEAD ", fracture = 'stress', strength = 1e5, fracture_energy = 1e3" BLOCK);
-    assert_false(none.may_break || none.may_soften);
-    assert_true(stretch.may_break && !stretch.may_soften);
-    assert_true(stress.may_break && !stress.may_soften);
-    assert_true(soft.may_break && soft.may_soften);
+    CLEANUP(deck_free) deck none = deck_text_good(HEAD BLOCK " /\n");
+    CLEANUP(deck_free)
+    deck stretch = deck_text_good(HEAD ", fracture = 'stretch', critical_stretch = 0.1" BLOCK " /\n");
+    CLEANUP(deck_free) deck stress = deck_text_good(HEAD ", fracture = 'stress', strength = 1e5" BLOCK " /\n");
+    CLEANUP(deck_free)
+    deck soft = deck_text_good(HEAD ", fracture = 'stress', strength = 1e5, fracture_energy = 1e3" BLOCK " /\n");
+    assert_false(none.facts.may_break || none.facts.may_soften);
+    assert_true(stretch.facts.may_break && !stretch.facts.may_soften);
+    assert_true(stress.facts.may_break && !stress.facts.may_soften);
+    assert_true(soft.facts.may_break && soft.facts.may_soften);
+}
+
+/* The second group has two copies: bodies 1 and 2. */
+TEST(of_each_body_it_is_known_whether_it_is_rigid)
+{
+    CLEANUP(deck_free) deck elastic = deck_text_good(HEAD BLOCK " /\n");
+    CLEANUP(deck_free)
+    deck d = deck_text_good(HEAD BLOCK " /\n&body shape = 'disc', radius = 0.02, spacing = 1e-2, position = 0.1, 0, "
+                                       "rigid = .true., guide = 'y', copies = 2, 1, pitch = 0.1, 0.1 /\n"
+                                       "&body shape = 'disc', radius = 0.02, spacing = 1e-2, position = 0, 0.2, "
+                                       "rigid = .true. /\n");
+    const unsigned expected[4] = {0, DEM_NODE_RIGID | DEM_NODE_GUIDE_Y, DEM_NODE_RIGID | DEM_NODE_GUIDE_Y,
+                                  DEM_NODE_RIGID};
+    assert_int_equal(d.facts.n_bodies, 4);
+    for (int b = 0; b < 4; b++) assert_int_equal(d.facts.bodies[b].rigid, expected[b]);
+    assert_true(lattice_facts_any_rigid(&d.facts));
+    assert_int_equal(elastic.facts.n_bodies, 1);
+    assert_false(lattice_facts_any_rigid(&elastic.facts));
 }
 
 TEST_GROUP(scratch_make, scratch_remove);
