@@ -68,15 +68,6 @@ static void print_motion(FILE *out, const dem_model *model)
     if (n_moving > most_listed) (void)fprintf(out, "motion     of %lld obstacles in all\n", (long long)n_moving);
 }
 
-/* The longest damping time of the springs, s. */
-static double damping_time(const dem_lattice *lattice)
-{
-    double longest = 0.0;
-    for (dem_index k = 0; k < lattice->n_springs && lattice->viscosity != NULL; k++)
-        longest = fmax(longest, lattice->viscosity[k] / lattice->stiffness[k]);
-    return longest;
-}
-
 static void print_damping(FILE *out, double of_masses, double of_springs)
 {
     if (of_masses > 0.0) (void)fprintf(out, "damping    of masses: %g 1/s\n", of_masses);
@@ -474,7 +465,7 @@ static void print_boundaries(FILE *out, const deck *d, bool details)
 }
 
 /* What the deck itself says of contact and damping. */
-static void print_rules(FILE *out, const dem_simulation *simulation)
+static void print_rules(FILE *out, const deck *d, const dem_simulation *simulation)
 {
     const dem_model *model = dem_simulation_model(simulation);
     const dem_options o = ask_options(simulation);
@@ -482,7 +473,7 @@ static void print_rules(FILE *out, const dem_simulation *simulation)
     print_contact(out, &size, &o);
     print_friction(out, model);
     print_motion(out, model);
-    print_damping(out, o.mass_damping, damping_time(dem_model_lattice(model)));
+    print_damping(out, o.mass_damping, d->facts.damping_time);
 }
 
 static void print_details(FILE *out, const deck *d, const dem_simulation *simulation)
@@ -518,7 +509,7 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
     print_title(log, d);
     print_sizes(log->out, d, model, &o);
     print_bodies(log->out, d, log->verbose);
-    if (log->verbose) print_rules(log->out, simulation);
+    if (log->verbose) print_rules(log->out, d, simulation);
     print_boundaries(log->out, d, log->verbose);
     if (log->verbose) surface_report_print(log->out, simulation);
     print_measured(log, d, model);

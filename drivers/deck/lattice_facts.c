@@ -2,6 +2,7 @@
 /* Each fact is found of one node, or spring, after the other, in their order: of a lattice in pieces it is the same. */
 #include "lattice_facts.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static const unsigned rigid_flags = DEM_NODE_RIGID | DEM_NODE_GUIDE_X | DEM_NODE_GUIDE_Y;
@@ -26,11 +27,18 @@ static bool find_bodies(lattice_facts *f, const dem_lattice *l)
     return f->bodies != NULL;
 }
 
+static void find_springs(lattice_facts *f, const dem_lattice *l)
+{
+    for (dem_index k = 0; k < l->n_springs && l->viscosity != NULL; k++)
+        f->damping_time = fmax(f->damping_time, l->viscosity[k] / l->stiffness[k]);
+}
+
 bool lattice_facts_find(lattice_facts *out, const dem_lattice *lattice)
 {
     *out = (lattice_facts){0};
     out->may_break = lattice->strength != NULL || lattice->critical_stretch != NULL;
     out->may_soften = out->may_break && lattice->softening != NULL;
+    find_springs(out, lattice);
     return find_bodies(out, lattice);
 }
 

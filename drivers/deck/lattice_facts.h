@@ -16,6 +16,7 @@ typedef struct lattice_body {
 typedef struct lattice_facts {
     bool may_break;       /* something of it breaks by itself, */
     bool may_soften;      /* and softens before */
+    double damping_time;  /* s, the longest of its springs; 0: none is damped */
     lattice_body *bodies; /* [n_bodies] */
     dem_index n_bodies;
 } lattice_facts;

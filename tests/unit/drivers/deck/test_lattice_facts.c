@@ -2,10 +2,26 @@
 /* lattice_facts.c: lattices of a few nodes, of which a hand finds the same, and decks. */
 #include "lattice_facts.h"
 
+#include "unit/close.h"
 #include "unit/deck_text.h"
 
 #define HEAD  "&run t_end = 1 /\n&solver max_step = 1e-3 /\n&material youngs_modulus = 1e7, density = 1000"
 #define BLOCK " /\n&body shape = 'rectangle', size = 0.04, 0.04, spacing = 1e-2"
+
+/* Three nodes of body 0 at the corners of a triangle of 3, 4 and 5 m, and one of body 1; two springs of 100 N. */
+static double places[8] = {0.0, 0.0, 3.0, 0.0, 3.0, 4.0, -1.0, 1.0}, masses[4] = {1.0, 3.0, 5.0, 2.0};
+static double stiffnesses[2] = {100.0, 100.0}, rest_lengths[2] = {3.0, 4.0}, viscosities[2] = {1.0, 3.0};
+static dem_index ends[4] = {0, 1, 1, 2};
+static int32_t bodies[4] = {0, 0, 0, 1};
+
+static dem_lattice chain(void)
+{
+    dem_lattice l = dem_lattice_empty();
+    l.n_nodes = 4, l.n_springs = 2;
+    l.x = places, l.mass = masses, l.body = bodies;
+    l.ends = ends, l.stiffness = stiffnesses, l.rest_length = rest_lengths;
+    return l;
+}
 
 TEST(what_has_a_limit_may_break_and_may_soften_before)
 {
@@ -19,6 +35,19 @@ TEST(what_has_a_limit_may_break_and_may_soften_before)
     assert_true(stretch.facts.may_break && !stretch.facts.may_soften);
     assert_true(stress.facts.may_break && !stress.facts.may_soften);
     assert_true(soft.facts.may_break && soft.facts.may_soften);
+}
+
+/* Of two springs of 100 N one has 3 N s: a hundredth of that for each newton. */
+TEST(the_longest_damping_time_is_that_of_the_most_viscous_spring)
+{
+    dem_lattice l = chain();
+    CLEANUP(lattice_facts_free) lattice_facts undamped;
+    CLEANUP(lattice_facts_free) lattice_facts damped;
+    assert_true(lattice_facts_find(&undamped, &l));
+    l.viscosity = viscosities;
+    assert_true(lattice_facts_find(&damped, &l));
+    assert_close(undamped.damping_time, 0.0, 0.0);
+    assert_close(damped.damping_time, 0.03, 0.0);
 }
 
 /* The second group has two copies: bodies 1 and 2. */
