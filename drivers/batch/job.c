@@ -429,7 +429,8 @@ static dem_status build(job *j)
     d->lattice.velocity = NULL;
     if (status != DEM_OK) return status;
     j->options = d->options;
-    if (d->residual > 0.0 && j->options.mass_damping == 0.0) j->options.mass_damping = relaxation_damping(j->model);
+    if (d->residual > 0.0 && j->options.mass_damping == 0.0)
+        j->options.mass_damping = relaxation_damping(j->model, &d->facts);
     return simulate(j);
 }
 
@@ -524,7 +525,8 @@ static void start_log(job *j)
     report_start(&j->report, &j->log, d);
     j->rest = relaxation_start(d->residual, &d->options);
     if (d->residual > 0.0)
-        report_expect_rest(&j->report, &j->rest, relaxation_expected(j->simulation, &d->options, d->residual));
+        report_expect_rest(&j->report, &j->rest,
+                           relaxation_expected(j->simulation, &d->facts, &d->options, d->residual));
     j->checkpoint = checkpoint_file_start(j->command, j->path, d, &j->source);
 }
 

@@ -504,7 +504,8 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
 {
     const dem_model *model = dem_simulation_model(simulation);
     const dem_options o = ask_options(simulation);
-    const double expected = d->residual > 0.0 ? relaxation_expected(simulation, &d->options, d->residual) : d->t_end;
+    const double expected =
+        d->residual > 0.0 ? relaxation_expected(simulation, &d->facts, &d->options, d->residual) : d->t_end;
     const estimate needed = estimate_run(d, simulation, fmin(expected, d->t_end));
     print_title(log, d);
     print_sizes(log->out, d, model, &o);

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "ask.h"
-#include "extent.h"
 #include "initial_motion.h"
 
 /* ---- motion of all bodies ---- */
@@ -247,9 +246,8 @@ static double speed_scale(const rebound *r)
 }
 
 /* At which the ends of the bodies, at rest this far apart, would move as fast as their centre of mass. */
-static double spin_scale(const rebound *r, const dem_lattice *l)
+static double spin_scale(const rebound *r, double extent)
 {
-    const double extent = extent_diagonal(l);
     return extent > 0.0 ? speed_scale(r) / extent : 0.0;
 }
 
@@ -271,7 +269,7 @@ static void print_normal(FILE *out, const rebound *r, const dem_simulation *simu
     (void)fprintf(out, "\n");
 }
 
-static void print_rebound(FILE *out, const rebound *r, const dem_simulation *simulation)
+static void print_rebound(FILE *out, const rebound *r, const dem_simulation *simulation, double extent)
 {
     const double scale = speed_scale(r);
     if (!rebound_is_over(r)) {
@@ -280,12 +278,11 @@ static void print_rebound(FILE *out, const rebound *r, const dem_simulation *sim
         return;
     }
     (void)fprintf(out, "rebound    (%+.5g, %+.5g) m/s of the centre of mass at the last contact, spin %+.4g rad/s\n",
-                  clean(r->velocity[0], scale), clean(r->velocity[1], scale),
-                  clean(r->spin, spin_scale(r, dem_model_lattice(dem_simulation_model(simulation)))));
+                  clean(r->velocity[0], scale), clean(r->velocity[1], scale), clean(r->spin, spin_scale(r, extent)));
     print_normal(out, r, simulation);
 }
 
-void rebound_print(FILE *out, const rebound *r, const dem_simulation *simulation, bool rests)
+void rebound_print(FILE *out, const rebound *r, const dem_simulation *simulation, double extent, bool rests)
 {
     const double size = hypot(r->reaction[0], r->reaction[1]);
     if (!r->touched) {
@@ -297,7 +294,7 @@ void rebound_print(FILE *out, const rebound *r, const dem_simulation *simulation
     if (size > 0.0)
         (void)fprintf(out, "; largest force (%.6g, %.6g) N", clean(r->reaction[0], size), clean(r->reaction[1], size));
     (void)fprintf(out, "\n");
-    if (!rests) print_rebound(out, r, simulation);
+    if (!rests) print_rebound(out, r, simulation, extent);
 }
 
 void rebound_print_details(FILE *out, const rebound *r, const dem_simulation *simulation)

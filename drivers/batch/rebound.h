@@ -60,8 +60,10 @@ rebound_normal rebound_along(const rebound *r, const dem_simulation *simulation)
 /** Velocity of the centre of mass of all bodies against gravity, m/s. */
 double rebound_rising_speed(const dem_simulation *simulation);
 
-/** Values below 1e-12 of their scale are printed as 0.  \param rests  the run ends at rest, where nothing rebounds */
-void rebound_print(FILE *out, const rebound *r, const dem_simulation *simulation, bool rests);
+/** Values below 1e-12 of their scale are printed as 0.
+ *  \param extent  m, of all bodies at rest
+ *  \param rests   the run ends at rest, where nothing rebounds */
+void rebound_print(FILE *out, const rebound *r, const dem_simulation *simulation, double extent, bool rests);
 
 /** When the force was largest, what impacts gave, vertical velocities. */
 void rebound_print_details(FILE *out, const rebound *r, const dem_simulation *simulation);

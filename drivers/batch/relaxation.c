@@ -5,31 +5,17 @@
 #include <math.h>
 
 #include "ask.h"
-#include "extent.h"
 
 enum { between_looks = 16 }; /* steps: a look costs as much as half an evaluation */
 
 static const char entry[] = "relaxation"; /* of a checkpoint */
 static const double pi = 3.14159265358979323846;
 
-/* How long waves take along the fastest spring over how long along the mean one, for the same way: sqrt(m/(E_ij d)). */
-static double share_of_fastest(const dem_lattice *l)
+double relaxation_damping(const dem_model *model, const lattice_facts *facts)
 {
-    double least = (double)INFINITY, sum = 0.0;
-    for (dem_index k = 0; k < l->n_springs; k++) {
-        const double mass = l->mass[l->ends[2 * k]] + l->mass[l->ends[2 * k + 1]];
-        const double slowness = sqrt(0.5 * mass / (l->stiffness[k] * l->rest_length[k]));
-        least = fmin(least, slowness);
-        sum += slowness;
-    }
-    return l->n_springs > 0 ? least * (double)l->n_springs / sum : 1.0;
-}
-
-double relaxation_damping(const dem_model *model)
-{
-    const dem_lattice *l = dem_model_lattice(model);
-    const double fastest = 0.5 * dem_model_omega_max(model) * dem_model_spacing(model), extent = extent_diagonal(l);
-    return extent > 0.0 ? pi * fastest * share_of_fastest(l) / extent : 0.0;
+    const double fastest = 0.5 * dem_model_omega_max(model) * dem_model_spacing(model);
+    const double extent = lattice_facts_diagonal(facts);
+    return extent > 0.0 ? pi * fastest * facts->share_of_fastest / extent : 0.0;
 }
 
 double relaxation_settled(const dem_options *options)
@@ -39,9 +25,10 @@ double relaxation_settled(const dem_options *options)
     return last;
 }
 
-double relaxation_expected(const dem_simulation *simulation, const dem_options *options, double residual)
+double relaxation_expected(const dem_simulation *simulation, const lattice_facts *facts, const dem_options *options,
+                           double residual)
 {
-    const double critical = relaxation_damping(dem_simulation_model(simulation));
+    const double critical = relaxation_damping(dem_simulation_model(simulation), facts);
     const double alpha = ask_options(simulation).mass_damping;
     const double rate = 0.5 * (alpha - sqrt(fmax(alpha * alpha - critical * critical, 0.0)));
     return relaxation_settled(options) - log(residual) / rate;

@@ -7,6 +7,8 @@
 
 #include <dem/dem.h>
 
+#include "lattice_facts.h"
+
 typedef struct relaxation {
     double residual;   /* at which the bodies are at rest; see dem_simulation_residual() */
     double settled;    /* s, when the last ramp has ended */
@@ -18,14 +20,15 @@ typedef struct relaxation {
 /* Damping of the masses, 1/s, that is critical for the slowest stretch of a body held at one end: twice
  * pi c/(2 L), L the extent of all nodes; c = omega_max spacing/2, the speed of sound of a chain, in the fastest spring,
  * slower in all as their mean slowness is. */
-double relaxation_damping(const dem_model *model);
+double relaxation_damping(const dem_model *model, const lattice_facts *facts);
 
 /* When the last ramp ends, s. */
 double relaxation_settled(const dem_options *options);
 
 /* When a run will be at rest, s, about: after the last ramp the slowest motion, of relaxation_damping(), decays from 1
  * to the residual at the rate that the damping in force gives it. Infinite without damping of the masses. */
-double relaxation_expected(const dem_simulation *simulation, const dem_options *options, double residual);
+double relaxation_expected(const dem_simulation *simulation, const lattice_facts *facts, const dem_options *options,
+                           double residual);
 
 /* A run that is to end at this residual. */
 relaxation relaxation_start(double residual, const dem_options *options);

@@ -498,7 +498,8 @@ void report_summary(report *r, const dem_simulation *simulation)
     const bool details = r->log->verbose;
     FILE *out = r->log->out;
     run_log_begin(r->log);
-    if (ask_sizes(model).n_obstacles > 0) rebound_print(out, &r->so_far.rebound, simulation, r->rest != NULL);
+    if (ask_sizes(model).n_obstacles > 0)
+        rebound_print(out, &r->so_far.rebound, simulation, lattice_facts_diagonal(&r->deck->facts), r->rest != NULL);
     warn_touching(r);
     if (details) rebound_print_details(out, &r->so_far.rebound, simulation);
     if (details) print_strain(r);

@@ -14,16 +14,22 @@ typedef struct lattice_body {
 } lattice_body;
 
 typedef struct lattice_facts {
-    bool may_break;       /* something of it breaks by itself, */
-    bool may_soften;      /* and softens before */
-    double damping_time;  /* s, the longest of its springs; 0: none is damped */
-    lattice_body *bodies; /* [n_bodies] */
+    bool may_break;          /* something of it breaks by itself, */
+    bool may_soften;         /* and softens before */
+    double low[2], high[2];  /* m, corners of the box of all nodes at rest */
+    double damping_time;     /* s, the longest of its springs; 0: none is damped */
+    double share_of_fastest; /* how long waves take along the fastest spring over how long along the mean one, for the
+                                same way; 1 without springs */
+    lattice_body *bodies;    /* [n_bodies] */
     dem_index n_bodies;
 } lattice_facts;
 
 /* Of a lattice of which a model can be made. False when memory runs out. Free with lattice_facts_free() in any case. */
 bool lattice_facts_find(lattice_facts *out, const dem_lattice *lattice);
 void lattice_facts_free(lattice_facts *facts);
+
+/* The diagonal of the box of all nodes at rest, m: no body is longer. */
+double lattice_facts_diagonal(const lattice_facts *facts);
 
 /* Whether any body is rigid. */
 bool lattice_facts_any_rigid(const lattice_facts *facts);

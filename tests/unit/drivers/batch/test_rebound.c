@@ -8,6 +8,7 @@
 #include "verification/support.h"
 
 static const double g = 9.81, height = 0.5, eta = 0.5, near = 1e-9;
+static const double extent = 1.0; /* m, of two nodes */
 static char text[4096];
 
 static dem_status step(void *context, const dem_simulation *simulation)
@@ -70,7 +71,7 @@ static void print_run(const rebound *r, const dem_simulation *simulation, bool r
 {
     FILE *file = tmpfile();
     assert_non_null(file);
-    rebound_print(file, r, simulation, rests);
+    rebound_print(file, r, simulation, extent, rests);
     rebound_print_details(file, r, simulation);
     rewind(file);
     text[fread(text, 1, sizeof text - 1, file)] = '\0';

@@ -50,6 +50,32 @@ TEST(the_longest_damping_time_is_that_of_the_most_viscous_spring)
     assert_close(damped.damping_time, 0.03, 0.0);
 }
 
+TEST(the_box_holds_all_nodes)
+{
+    const dem_lattice l = chain();
+    CLEANUP(lattice_facts_free) lattice_facts f;
+    assert_true(lattice_facts_find(&f, &l));
+    assert_close(f.low[0], -1.0, 0.0);
+    assert_close(f.low[1], 0.0, 0.0);
+    assert_close(f.high[0], 3.0, 0.0);
+    assert_close(f.high[1], 4.0, 0.0);
+    assert_close(lattice_facts_diagonal(&f), sqrt(32.0), 1e-15);
+}
+
+/* sqrt(2/(100 3)) and sqrt(4/(100 4)) s/m; of nodes alone nothing is fast. */
+TEST(the_fastest_spring_is_compared_with_the_mean_one)
+{
+    dem_lattice l = chain();
+    const double fast = sqrt(2.0 / 300.0), slow = sqrt(4.0 / 400.0);
+    CLEANUP(lattice_facts_free) lattice_facts springs;
+    CLEANUP(lattice_facts_free) lattice_facts none;
+    assert_true(lattice_facts_find(&springs, &l));
+    assert_close(springs.share_of_fastest, 2.0 * fast / (fast + slow), 1e-15);
+    l.n_springs = 0;
+    assert_true(lattice_facts_find(&none, &l));
+    assert_close(none.share_of_fastest, 1.0, 0.0);
+}
+
 /* The second group has two copies: bodies 1 and 2. */
 TEST(of_each_body_it_is_known_whether_it_is_rigid)
 {
