@@ -5,7 +5,6 @@
 #include <stdio.h>
 
 #include "ask.h"
-#include "initial_motion.h"
 #include "rigid_keys.h"
 #include "step_report.h"
 #include "walls.h"
@@ -124,11 +123,12 @@ void doubts_of_pressing(run_log *log, const dem_simulation *simulation)
                  e.contact, e.kinetic);
 }
 
-void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, dem_index number, double wave_speed)
+void doubts_of_speed(run_log *log, const dem_model *model, const lattice_body *body, dem_index number,
+                     double wave_speed)
 {
     const dem_index n = ask_sizes(model).n_obstacles;
     double v[2], least = (double)INFINITY;
-    initial_motion_velocity(dem_model_lattice(model), b, v);
+    initial_motion_velocity(v, &body->motion);
     for (dem_index o = 0; o < n; o++) {
         const dem_obstacle *obstacle = dem_model_obstacle(model, o);
         double w[2];

@@ -28,9 +28,10 @@ void doubts_of_overlap(run_log *log, const dem_simulation *simulation);
  *  of their motion. */
 void doubts_of_pressing(run_log *log, const dem_simulation *simulation);
 
-/** Warns if body b, from 0, comes to the obstacles fast for the waves in it.
+/** Warns if a body comes to the obstacles fast for the waves in it.
  *  \param number  of its group in the deck, from 0
  *  \param wave_speed  m/s, of long waves */
-void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, dem_index number, double wave_speed);
+void doubts_of_speed(run_log *log, const dem_model *model, const lattice_body *body, dem_index number,
+                     double wave_speed);
 
 #endif

@@ -227,7 +227,7 @@ static void print_body_constants(run_log *log, const deck *d, const dem_model *m
     const dem_status status = dem_model_constants(model, body.first, &c);
     if (listed && status != DEM_OK) (void)fprintf(log->out, "not measured: %s\n", dem_status_message());
     if (listed && status == DEM_OK) print_modulus(log->out, &c, body.slice);
-    if (status == DEM_OK) doubts_of_speed(log, model, body.first, body.number, c.longitudinal_speed);
+    if (status == DEM_OK) doubts_of_speed(log, model, known, body.number, c.longitudinal_speed);
 }
 
 static void print_constants(run_log *log, const deck *d, const dem_model *model)

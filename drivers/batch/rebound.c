@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "ask.h"
-#include "initial_motion.h"
 
 /* ---- motion of all bodies ---- */
 
@@ -87,11 +86,11 @@ static bool comes_back(const rebound *r, const dem_simulation *simulation, const
 
 /* Where a bounce begins the bodies have been in free flight since the last step; bodies that touch from the beginning
  * have had no step before. */
-static void meet(rebound *r, const dem_simulation *simulation, const dem_event *event)
+static void meet(rebound *r, const initial_motion *initial, const dem_simulation *simulation, const dem_event *event)
 {
     double v[2];
     const dem_options options = ask_options(simulation);
-    if (!r->started) initial_motion_velocity(dem_model_lattice(dem_simulation_model(simulation)), -1, r->before);
+    if (!r->started) initial_motion_velocity(r->before, initial);
     for (int c = 0; c < 2; c++) v[c] = r->before[c] + options.gravity[c] * (event->t - r->t);
     if (r->touched && !comes_back(r, simulation, event, v)) return;
     if (!r->touched) r->first = event->t;
@@ -105,9 +104,9 @@ static void meet(rebound *r, const dem_simulation *simulation, const dem_event *
     memcpy(r->given_before, r->given, sizeof r->given);
 }
 
-void rebound_note(rebound *r, const dem_simulation *simulation, const dem_event *event)
+void rebound_note(rebound *r, const initial_motion *initial, const dem_simulation *simulation, const dem_event *event)
 {
-    meet(r, simulation, event);
+    meet(r, initial, simulation, event);
     if (event->obstacle != r->obstacle) r->several = true;
     r->last = event->t;
     r->obstacle = event->obstacle;

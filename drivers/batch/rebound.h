@@ -8,6 +8,8 @@
 
 #include <dem/dem.h>
 
+#include "initial_motion.h"
+
 /** Velocities are of the centre of mass of all bodies. To be set to 0. */
 typedef struct rebound {
     bool touched;        /* there was a contact; before that what follows is 0 */
@@ -37,8 +39,8 @@ typedef struct rebound {
     dem_index n_contacts, n_impacts; /* after the last accepted step */
 } rebound;
 
-/** To be called for every contact event. */
-void rebound_note(rebound *r, const dem_simulation *simulation, const dem_event *event);
+/** To be called for every contact event.  \param initial  of all bodies as one */
+void rebound_note(rebound *r, const initial_motion *initial, const dem_simulation *simulation, const dem_event *event);
 
 /** To be called at t = 0 and after every accepted step in which something touches, and with the state from which the
  *  first of them goes; after others, too. */

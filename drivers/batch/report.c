@@ -68,7 +68,7 @@ bool report_is_stepped(const report *r, const dem_model *model, dem_index node)
 static dem_status note_event(void *context, const dem_simulation *simulation, const dem_event *event)
 {
     report *r = context;
-    rebound_note(&r->so_far.rebound, simulation, event);
+    rebound_note(&r->so_far.rebound, &r->deck->facts.motion, simulation, event);
     if (r->touched == NULL) r->touched = calloc((size_t)count_nodes(simulation), sizeof *r->touched);
     if (r->touched == NULL) return DEM_ERROR_MEMORY;
     r->touched[event->node] = (int32_t)event->obstacle + 1;

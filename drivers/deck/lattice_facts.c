@@ -22,8 +22,12 @@ static bool find_bodies(lattice_facts *f, const dem_lattice *l)
     for (dem_index i = 0; i < l->n_nodes; i++)
         if (body_of(l, i) >= f->n_bodies) f->n_bodies = body_of(l, i) + 1;
     f->bodies = calloc((size_t)f->n_bodies + 1, sizeof *f->bodies);
-    for (dem_index i = 0; i < l->n_nodes && f->bodies != NULL; i++)
-        f->bodies[body_of(l, i)].rigid |= flags_of(l, i) & rigid_flags;
+    for (dem_index i = 0; i < l->n_nodes && f->bodies != NULL; i++) {
+        lattice_body *body = &f->bodies[body_of(l, i)];
+        body->rigid |= flags_of(l, i) & rigid_flags;
+        initial_motion_add(&body->motion, l, i);
+        initial_motion_add(&f->motion, l, i);
+    }
     return f->bodies != NULL;
 }
 

@@ -6,14 +6,16 @@
 
 #include <stdbool.h>
 
-#include <dem/lattice.h>
+#include "initial_motion.h"
 
 /* A body of the lattice, and of its model. */
 typedef struct lattice_body {
     unsigned rigid; /* DEM_NODE_RIGID, with DEM_NODE_GUIDE_X or DEM_NODE_GUIDE_Y of a guided one; 0: it is elastic */
+    initial_motion motion;
 } lattice_body;
 
 typedef struct lattice_facts {
+    initial_motion motion;
     bool may_break;          /* something of it breaks by itself, */
     bool may_soften;         /* and softens before */
     double low[2], high[2];  /* m, corners of the box of all nodes at rest */

@@ -98,13 +98,13 @@ static size_t count_doubts(double wave_speed, double floor_speed, dem_index n_fl
     static const double points[4] = {-9.0, -9.0, 9.0, -9.0};
     const double x[2] = {0.0, 0.0}, v[2] = {2.0, 0.0}, mass = 3.0;
     const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = points, .velocity = {floor_speed, 0.0});
+    const lattice_body body = {.motion = {.mass = mass, .momentum = {mass * v[0], mass * v[1]}}};
     run_log log = {.out = tmpfile()};
     assert_non_null(log.out);
     dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
-    support_start(&lattice, NULL, v);
     dem_model *model = support_model(&lattice, &floor, n_floors);
     dem_lattice_free(&lattice);
-    doubts_of_speed(&log, model, 0, 0, wave_speed);
+    doubts_of_speed(&log, model, &body, 0, wave_speed);
     dem_model_destroy(model);
     read_log(&log);
     return log.n_warnings;

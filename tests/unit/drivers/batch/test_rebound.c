@@ -19,9 +19,11 @@ static dem_status step(void *context, const dem_simulation *simulation)
     return DEM_OK;
 }
 
+static initial_motion initial; /* of the nodes that run */
+
 static dem_status event(void *context, const dem_simulation *simulation, const dem_event *e)
 {
-    rebound_note(context, simulation, e);
+    rebound_note(context, &initial, simulation, e);
     return DEM_OK;
 }
 
@@ -49,6 +51,8 @@ static rebound run_over(support_run *run, dem_index n, const double *x, const do
     lattice.body = calloc((size_t)n, sizeof *lattice.body);
     assert_non_null(lattice.body);
     for (dem_index i = 0; i < n; i++) lattice.body[i] = (int32_t)i; /* without springs each is a body of its own */
+    initial = (initial_motion){0};
+    for (dem_index i = 0; i < n; i++) initial_motion_add(&initial, &lattice, i);
     support_open(run, &lattice, floors, n_floors, &options);
     dem_lattice_free(&lattice);
     assert_ok(dem_simulation_observe(run->simulation, &observer));

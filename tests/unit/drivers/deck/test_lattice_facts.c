@@ -76,6 +76,22 @@ TEST(the_fastest_spring_is_compared_with_the_mean_one)
     assert_close(none.share_of_fastest, 1.0, 0.0);
 }
 
+/* 10 kg m/s of body 0, of 9 kg, and 2 (3, 0) kg m/s of body 1, of 2 kg. */
+TEST(bodies_have_momenta_and_all_have_their_sum)
+{
+    double velocities[8] = {1.0, 0.0, 3.0, 0.0, 0.0, -2.0, 3.0, 0.0};
+    dem_lattice l = chain();
+    l.velocity = velocities;
+    CLEANUP(lattice_facts_free) lattice_facts f;
+    assert_true(lattice_facts_find(&f, &l));
+    const initial_motion all[3] = {f.motion, f.bodies[0].motion, f.bodies[1].motion};
+    const initial_motion expected[3] = {{11.0, {16.0, -10.0}}, {9.0, {10.0, -10.0}}, {2.0, {6.0, 0.0}}};
+    for (int k = 0; k < 3; k++) {
+        assert_close(all[k].mass, expected[k].mass, 0.0);
+        for (int c = 0; c < 2; c++) assert_close(all[k].momentum[c], expected[k].momentum[c], 0.0);
+    }
+}
+
 /* The second group has two copies: bodies 1 and 2. */
 TEST(of_each_body_it_is_known_whether_it_is_rigid)
 {
