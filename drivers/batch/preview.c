@@ -149,20 +149,15 @@ static void print_sizes(FILE *out, const deck *d, const dem_model *model, const 
 }
 
 /* What is probed, where at rest. */
-static void print_probes(FILE *out, const deck *d, const dem_lattice *l)
+static void print_probes(FILE *out, const deck *d)
 {
     static const char *const kinds[] = {
         [DEM_PROBE_NODE] = "node", [DEM_PROBE_SPRING] = "spring", [DEM_PROBE_GAUGE] = "gauge from node"};
     for (dem_index k = 0; k < d->n_probes; k++) {
         const dem_probe *p = &d->probes[k];
-        const dem_index a = p->kind == DEM_PROBE_SPRING ? l->ends[2 * p->number[0]] : p->number[0];
-        const dem_index b = p->kind == DEM_PROBE_SPRING  ? l->ends[2 * p->number[0] + 1]
-                            : p->kind == DEM_PROBE_GAUGE ? p->number[1]
-                                                         : a;
         (void)fprintf(out, "probe      %s: %s %lld", p->name, kinds[p->kind], (long long)p->number[0]);
         if (p->kind == DEM_PROBE_GAUGE) (void)fprintf(out, " to %lld", (long long)p->number[1]);
-        (void)fprintf(out, " at (%.6g, %.6g) m\n", 0.5 * (l->x[2 * a] + l->x[2 * b]),
-                      0.5 * (l->x[2 * a + 1] + l->x[2 * b + 1]));
+        (void)fprintf(out, " at (%.6g, %.6g) m\n", d->probe_places[k][0], d->probe_places[k][1]);
     }
 }
 
@@ -480,7 +475,7 @@ static void print_details(FILE *out, const deck *d, const dem_simulation *simula
 {
     const dem_model *model = dem_simulation_model(simulation);
     const dem_options o = ask_options(simulation);
-    print_probes(out, d, dem_model_lattice(model));
+    print_probes(out, d);
     print_impacts(out, &o, model);
     (void)fprintf(out,
                   "scales     spacing %.6g m, omega_max %.6g rad/s (upper bound), v_scale %.6g m/s, penetration "

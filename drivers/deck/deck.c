@@ -277,9 +277,13 @@ static bool set_probes(deck *d, const schema_deck *groups, const placement *bodi
 {
     const size_t n = schema_count(groups, "probe");
     d->probes = calloc(n + 1, sizeof *d->probes);
-    if (d->probes == NULL) return false;
+    d->probe_places = calloc(n + 1, sizeof *d->probe_places);
+    if (d->probes == NULL || d->probe_places == NULL) return false;
     d->n_probes = (dem_index)n;
-    return probes_find(d->probes, groups, &d->lattice, bodies, errors);
+    const bool good = probes_find(d->probes, groups, &d->lattice, bodies, errors);
+    for (size_t k = 0; k < n && good && errors->n == 0; k++)
+        probes_place(d->probe_places[k], &d->probes[k], &d->lattice);
+    return good;
 }
 
 static bool set_bodies(deck *d, schema_deck *groups, const char *folder, namelist_errors *errors)
@@ -402,6 +406,7 @@ void deck_free(deck *d)
     obstacles_free(d->obstacles, d->n_obstacles);
     schema_free(&d->groups);
     probes_free(d->probes, (size_t)d->n_probes);
+    free(d->probe_places);
     dem_lattice_free(&d->lattice);
     lattice_facts_free(&d->facts);
     free(d->bodies);

@@ -50,8 +50,9 @@ typedef struct deck {
     dem_index n_obstacles;
     dem_boundary *boundaries; /* [n_boundaries] */
     dem_index n_boundaries;
-    double *body_friction; /* of each body; NULL: the options' */
-    dem_probe *probes;     /* [n_probes] */
+    double *body_friction;     /* of each body; NULL: the options' */
+    dem_probe *probes;         /* [n_probes] */
+    double (*probe_places)[2]; /* [n_probes] m, at rest */
     dem_index n_probes;
 } deck;
 

@@ -179,6 +179,14 @@ bool probes_find(dem_probe *out, const schema_deck *groups, const dem_lattice *l
     return true;
 }
 
+void probes_place(double at[2], const dem_probe *p, const dem_lattice *lattice)
+{
+    const dem_index first = p->number[0];
+    const dem_index node[2] = {first, p->kind == DEM_PROBE_GAUGE ? p->number[1] : first};
+    const dem_index *ends = p->kind == DEM_PROBE_SPRING ? lattice->ends + 2 * first : node;
+    for (int c = 0; c < 2; c++) at[c] = 0.5 * (lattice->x[2 * ends[0] + c] + lattice->x[2 * ends[1] + c]);
+}
+
 void probes_free(dem_probe *probes, size_t n)
 {
     for (size_t k = 0; k < n && probes != NULL; k++) free((void *)probes[k].name);

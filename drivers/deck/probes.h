@@ -22,4 +22,7 @@ bool probes_find(dem_probe *out, const schema_deck *groups, const dem_lattice *l
                  namelist_errors *errors);
 void probes_free(dem_probe *probes, size_t n);
 
+/* Where what is probed is at rest, m: the node, or the middle of the spring or gauge. */
+void probes_place(double at[2], const dem_probe *p, const dem_lattice *lattice);
+
 #endif

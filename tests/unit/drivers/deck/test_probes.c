@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "probes.h"
+#include "unit/close.h"
 #include "unit/solids.h"
 
 #define HEAD "&run t_end = 1 / &body shape = 'disc' / &body shape = 'disc' /\n"
@@ -123,6 +124,26 @@ TEST(the_spring_with_the_nearest_middle_is_taken)
         assert_int_equal(ends[1], 7 * k + 2);
     }
     assert_int_equal(s.probes[2].number[0], 9);
+}
+
+static void expect_place(const scene *s, size_t probe, double x, double y)
+{
+    double at[2];
+    probes_place(at, &s->probes[probe], &s->lattice);
+    assert_close(at[0], x, 1e-14 * 20.0);
+    assert_close(at[1], y, 1e-14 * 20.0);
+}
+
+/* The second block is turned to stand up at (10, 20) m. */
+TEST(what_has_two_ends_is_in_the_middle_between_them)
+{
+    CLEANUP(drop_scene) scene s;
+    find(&s, "&probe name = 'a', number = 5 / &probe name = 'b', kind = 'spring', place = 0.1, -1, body = 2 / "
+             "&probe name = 'c', kind = 'gauge', number = 7, 12 /");
+    assert_int_equal(s.deck.errors.n, 0);
+    expect_place(&s, 0, 0.0, sqrt(0.75));
+    expect_place(&s, 1, 10.0, 20.0);
+    expect_place(&s, 2, 10.0 - 0.5 * sqrt(0.75), 20.0 - 0.75);
 }
 
 TEST(what_is_not_there_is_named)
