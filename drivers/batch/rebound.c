@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "ask.h"
+#include "whole_nodes.h"
 
 /* ---- motion of all bodies ---- */
 
@@ -33,24 +34,6 @@ static mean_motion measure(const dem_simulation *simulation)
 double rebound_rising_speed(const dem_simulation *simulation)
 {
     return measure(simulation).rising;
-}
-
-/* Of the bodies as one, rad/s. */
-static double spin_of(const dem_simulation *simulation, const double v[2])
-{
-    const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
-    const dem_state state = ask_state(simulation);
-    double mass = 0.0, centre[2] = {0.0, 0.0}, angular = 0.0, inertia = 0.0;
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        mass += l->mass[i];
-        for (int c = 0; c < 2; c++) centre[c] += l->mass[i] * state.x[2 * i + c];
-    }
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        const double x = state.x[2 * i] - centre[0] / mass, y = state.x[2 * i + 1] - centre[1] / mass;
-        angular += l->mass[i] * (x * (state.v[2 * i + 1] - v[1]) - y * (state.v[2 * i] - v[0]));
-        inertia += l->mass[i] * (x * x + y * y);
-    }
-    return inertia > 0.0 ? angular / inertia : 0.0;
 }
 
 /* ---- following a run ---- */
@@ -158,7 +141,7 @@ static void follow_velocity(rebound *r, const dem_simulation *simulation, const 
 {
     const dem_options options = ask_options(simulation);
     const double since = now->t - r->last; /* for which the bodies have been in free flight again */
-    if (now->n_contacts == 0) r->spin = spin_of(simulation, mean->velocity);
+    if (now->n_contacts == 0) r->spin = whole_nodes_spin(simulation, mean->velocity);
     for (int c = 0; c < 2; c++) r->velocity[c] = mean->velocity[c] - options.gravity[c] * since;
     r->speed = mean->rising + hypot(options.gravity[0], options.gravity[1]) * since;
 }

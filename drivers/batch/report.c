@@ -13,6 +13,7 @@
 #include "ask.h"
 #include "edges.h"
 #include "wall_clock.h"
+#include "whole_nodes.h"
 
 enum { most_listed = 16, most_in_short = 4 }; /* obstacles, boundaries */
 
@@ -62,7 +63,7 @@ int32_t report_touched(const report *r, dem_index node)
 
 bool report_is_stepped(const report *r, const dem_model *model, dem_index node)
 {
-    return edges_stepped(&r->deck->groups, dem_model_lattice(model), ask_sizes(model).n_bodies, node);
+    return edges_stepped(&r->deck->groups, model, node);
 }
 
 static dem_status note_event(void *context, const dem_simulation *simulation, const dem_event *event)
@@ -329,8 +330,8 @@ static void print_marks(const report *r, const dem_model *model, dem_index node)
 static void print_node_peak(const report *r, const dem_model *model, dem_index node)
 {
     const dem_node_peak *peak = &dem_peaks_nodes(r->peaks)[node];
-    const double *x = dem_model_lattice(model)->x + 2 * node;
-    double value[2], direction[2];
+    double x[2], value[2], direction[2];
+    whole_nodes_place(x, model, node);
     dem_stress_principal(peak->stress, value, direction);
     (void)fprintf(r->log->out,
                   "stressed   node %lld at (%.6g, %.6g) m: von Mises %.4g Pa at %.4e s, principal %+.4g Pa at %.0f "
@@ -341,12 +342,12 @@ static void print_node_peak(const report *r, const dem_model *model, dem_index n
     (void)fprintf(r->log->out, "\n");
 }
 
-static void print_spring_peak(FILE *out, dem_index spring, const dem_spring_peak *peak, const dem_lattice *l)
+static void print_spring_peak(const report *r, const dem_model *model, dem_index spring)
 {
-    const double *a = l->x + 2 * l->ends[2 * spring], *b = l->x + 2 * l->ends[2 * spring + 1];
-    (void)fprintf(out, "strained   spring %lld at (%.6g, %.6g) m: strain %+.4g, force %+.4g N at %.4e s\n",
-                  (long long)spring, 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), peak->strain,
-                  l->stiffness[spring] * peak->strain, peak->t);
+    const dem_spring_peak *peak = &dem_peaks_springs(r->peaks)[spring];
+    const whole_spring at = whole_nodes_spring(model, spring);
+    (void)fprintf(r->log->out, "strained   spring %lld at (%.6g, %.6g) m: strain %+.4g, force %+.4g N at %.4e s\n",
+                  (long long)spring, at.middle[0], at.middle[1], peak->strain, at.stiffness * peak->strain, peak->t);
 }
 
 /* Whether bodies have deformed at all. In free flight coordinates are rounded: 1e4 steps of a ring, 100 spacings from
@@ -358,7 +359,6 @@ static bool is_strained(const report *r)
 
 static void print_peaks(const report *r, const dem_model *model)
 {
-    const dem_lattice *l = dem_model_lattice(model);
     dem_index *list = calloc((size_t)r->most_stressed + 1, sizeof *list);
     if (r->peaks == NULL || !is_strained(r) || list == NULL) {
         free(list);
@@ -368,7 +368,7 @@ static void print_peaks(const report *r, const dem_model *model)
     const dem_index n = dem_peaks_most_stressed_nodes(r->peaks, most, list);
     for (dem_index k = 0; k < n; k++) print_node_peak(r, model, list[k]);
     const dem_index m = r->log->verbose ? dem_peaks_most_strained_springs(r->peaks, most, list) : 0;
-    for (dem_index k = 0; k < m; k++) print_spring_peak(r->log->out, list[k], &dem_peaks_springs(r->peaks)[list[k]], l);
+    for (dem_index k = 0; k < m; k++) print_spring_peak(r, model, list[k]);
     free(list);
 }
 

@@ -1,46 +1,30 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The boundary is found from the triangles, not from the flags of contact: nodes that are held may not touch, and yet
- * the peak of a plate with lines of symmetry is at one of them. */
 #include "edges.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "angle.h"
 #include "body_outline.h"
+#include "ask.h"
 #include "copies.h"
+#include "whole_nodes.h"
 
 static const double blur = 1e-6; /* of the spacing: turned coordinates are rounded */
 
-enum { most_ends = 32 }; /* a node of a lattice of triangles has 6 of them, one of squares at most 8 */
-
-/* A node and its body. */
+/* A node, where it is at rest, and its body. */
 typedef struct place {
-    const dem_lattice *lattice;
+    const dem_model *model;
     const schema_instance *body;
     dem_index node;
+    double x[2]; /* m */
 } place;
-
-static dem_index body_of(const dem_lattice *l, dem_index node)
-{
-    return l->body != NULL ? l->body[node] : 0;
-}
 
 /* ---- sides of the outline ---- */
 
-/* How much farther out than the place a node lies, m. */
-static double ahead(const place *p, dem_index node, const double outwards[2])
+/* How much farther out than the place y lies, m. */
+static double ahead(const place *p, const double y[2], const double outwards[2])
 {
-    const double *x = p->lattice->x + 2 * p->node, *y = p->lattice->x + 2 * node;
-    return (y[0] - x[0]) * outwards[0] + (y[1] - x[1]) * outwards[1];
-}
-
-static bool is_outermost(const place *p, const double outwards[2], double slack)
-{
-    const dem_lattice *l = p->lattice;
-    for (dem_index i = 0; i < l->n_nodes; i++)
-        if (body_of(l, i) == body_of(l, p->node) && ahead(p, i, outwards) > slack) return false;
-    return true;
+    return (y[0] - p->x[0]) * outwards[0] + (y[1] - p->x[1]) * outwards[1];
 }
 
 typedef struct side {
@@ -69,7 +53,7 @@ static double area_of_sides(const dem_outline *o, dem_index n)
 
 /* Whether an edge from the place runs along a straight side of the outline, and no node of its body lies farther out.
  * Discs, rings and images have no such side. */
-static bool is_straight(const place *p, dem_index end)
+static bool is_straight(const place *p, const double end[2])
 {
     if (!schema_is(p->body, "shape", "polygon") && !schema_is(p->body, "shape", "rectangle")) return false;
     const double angle = angle_degree * schema_real(p->body, "angle"), slack = blur * schema_real(p->body, "spacing");
@@ -81,38 +65,20 @@ static bool is_straight(const place *p, dem_index end)
         const double x = e.b[0] - e.a[0], y = e.b[1] - e.a[1], length = sense * hypot(x, y);
         const double normal[2] = {y / length, -x / length};
         const double outwards[2] = {c * normal[0] - s * normal[1], s * normal[0] + c * normal[1]};
-        if (fabs(ahead(p, end, outwards)) <= slack && is_outermost(p, outwards, slack)) return true;
+        if (fabs(ahead(p, end, outwards)) > slack) continue;
+        if (!whole_nodes_any_ahead(p->model, p->node, outwards, slack)) return true;
     }
     return false;
 }
 
 /* ---- edges of the lattice ---- */
 
-/* The other ends of the sides at the place, one for each triangle that has the side. \return their number */
-static int find_ends(dem_index *ends, const place *p)
-{
-    const dem_lattice *l = p->lattice;
-    int n = 0;
-    for (dem_index t = 0; t < l->n_triangles; t++)
-        for (int k = 0; k < 3; k++) {
-            const dem_index *corner = l->triangles + 3 * t;
-            if (corner[k] != p->node || n + 2 > most_ends) continue;
-            ends[n++] = corner[(k + 1) % 3];
-            ends[n++] = corner[(k + 2) % 3];
-        }
-    return n;
-}
-
-/* Sides that only one triangle has are the edges of the boundary. */
 static bool has_stepped_edge(const place *p)
 {
-    dem_index ends[most_ends];
-    const int n = find_ends(ends, p);
-    for (int k = 0; k < n; k++) {
-        int shared = 0;
-        for (int q = 0; q < n; q++) shared += ends[q] == ends[k];
-        if (shared == 1 && !is_straight(p, ends[k])) return true;
-    }
+    double ends[WHOLE_NODES_SIDES][2];
+    const int n = whole_nodes_rim(ends, p->model, p->node);
+    for (int k = 0; k < n; k++)
+        if (!is_straight(p, ends[k])) return true;
     return false;
 }
 
@@ -126,12 +92,13 @@ static bool is_smooth(const schema_deck *groups, const schema_instance *body)
     return schema_is(body, "outline", "smooth");
 }
 
-bool edges_stepped(const schema_deck *groups, const dem_lattice *lattice, dem_index n_bodies, dem_index node)
+bool edges_stepped(const schema_deck *groups, const dem_model *model, dem_index node)
 {
-    if ((dem_index)copies_total(groups) != n_bodies) return false;
-    const size_t group = copies_find(groups, (size_t)body_of(lattice, node)).group;
-    const place p = {lattice, schema_get(groups, "body", group), node};
+    if ((dem_index)copies_total(groups) != ask_sizes(model).n_bodies) return false;
+    const size_t group = copies_find(groups, (size_t)whole_nodes_body(model, node)).group;
+    place p = {.model = model, .body = schema_get(groups, "body", group), .node = node};
     if (schema_is(p.body, "shape", "mesh") || schema_is(p.body, "shape", "file")) return false;
     if (is_smooth(groups, p.body)) return false;
+    whole_nodes_place(p.x, model, node);
     return has_stepped_edge(&p);
 }

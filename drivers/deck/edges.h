@@ -15,6 +15,6 @@
  *  A smooth outline has none, unless cracks go through its body: then all count that are not along a side.
  *  Whether the node may touch does not matter. False where bodies of the lattice are not one for one those of the deck.
  */
-bool edges_stepped(const schema_deck *groups, const dem_lattice *lattice, dem_index n_bodies, dem_index node);
+bool edges_stepped(const schema_deck *groups, const dem_model *model, dem_index node);
 
 #endif

@@ -19,6 +19,9 @@ static const double degree = 3.14159265358979323846 / 180.0;
 #define RING    "&body shape = 'ring', radius = 1, inner_radius = 0.5" SPACING " /\n"
 #define BLOCK   "&body shape = 'rectangle', size = 1, 0.8"
 
+static const dem_material rubber = {
+    .struct_size = sizeof rubber, .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1e3, .thickness = 1.0};
+
 /* The first body of a text after the groups of RUN, as it is in a run. */
 typedef struct built {
     resolved deck;
@@ -36,6 +39,8 @@ static built build(const char *text)
         fail_msg("'%s' gives '%s'", text, errors.n > 0 ? errors.list[0].text : "no memory");
     const double angle = degree * schema_real(schema_get(&b.deck.deck, "body", 0), "angle");
     dem_lattice_move(&b.lattice, angle, (const double[2]){3.0, -2.0});
+    free(body_geometry_take_numbers(&b.lattice));
+    assert_int_equal(dem_lattice_assemble(&b.lattice, &rubber), DEM_OK);
     return b;
 }
 
@@ -50,14 +55,16 @@ typedef struct counts {
     dem_index stepped, boundary;
 } counts;
 
-static counts count_nodes(const schema_deck *deck, const dem_lattice *l, dem_index n_bodies)
+static counts count_nodes(const schema_deck *deck, const dem_lattice *l)
 {
+    CLEANUP(free_model) dem_model *model;
     CLEANUP(free_memory) dem_index *n_edges = malloc((size_t)l->n_nodes * sizeof *n_edges);
     counts n = {0, 0};
     assert_non_null(n_edges);
     assert_int_equal(dem_lattice_rims(l, n_edges), DEM_OK);
+    assert_int_equal(dem_model_create(&model, l, NULL, 0), DEM_OK);
     for (dem_index i = 0; i < l->n_nodes; i++) {
-        const bool stepped = edges_stepped(deck, l, n_bodies, i);
+        const bool stepped = edges_stepped(deck, model, i);
         if (stepped && n_edges[i] == 0) fail_msg("node %lld is inside", (long long)i);
         n.stepped += stepped;
         n.boundary += n_edges[i] > 0;
@@ -68,7 +75,7 @@ static counts count_nodes(const schema_deck *deck, const dem_lattice *l, dem_ind
 static counts count(const char *text)
 {
     CLEANUP(drop_built) built b = build(text);
-    return count_nodes(&b.deck.deck, &b.lattice, 1);
+    return count_nodes(&b.deck.deck, &b.lattice);
 }
 
 static void expect_straight(const char *text, dem_index straight)
@@ -82,11 +89,13 @@ static void expect_straight(const char *text, dem_index straight)
 /* Whether the node at a place of the body, in its own coordinates, is on a stepped edge. */
 static bool is_stepped_at(const built *b, double x, double y)
 {
+    CLEANUP(free_model) dem_model *model;
     const dem_lattice *l = &b->lattice;
     const double angle = degree * schema_real(schema_get(&b->deck.deck, "body", 0), "angle");
     const double at[2] = {3.0 + cos(angle) * x - sin(angle) * y, -2.0 + sin(angle) * x + cos(angle) * y};
+    assert_int_equal(dem_model_create(&model, l, NULL, 0), DEM_OK);
     for (dem_index i = 0; i < l->n_nodes; i++)
-        if (hypot(l->x[2 * i] - at[0], l->x[2 * i + 1] - at[1]) < 1e-9) return edges_stepped(&b->deck.deck, l, 1, i);
+        if (hypot(l->x[2 * i] - at[0], l->x[2 * i + 1] - at[1]) < 1e-9) return edges_stepped(&b->deck.deck, model, i);
     fail_msg("no node at (%g, %g) m", x, y);
     return false;
 }
@@ -105,8 +114,8 @@ TEST(meshes_and_files_have_no_stepped_edges)
     CLEANUP(drop_built) built b = build(RING);
     CLEANUP(drop_resolved) resolved mesh = resolve("&body shape = 'mesh', file = 'a.msh' /\n");
     CLEANUP(drop_resolved) resolved file = resolve("&body shape = 'file', file = 'a.h5' /\n");
-    assert_int_equal(count_nodes(&mesh.deck, &b.lattice, 1).stepped, 0);
-    assert_int_equal(count_nodes(&file.deck, &b.lattice, 1).stepped, 0);
+    assert_int_equal(count_nodes(&mesh.deck, &b.lattice).stepped, 0);
+    assert_int_equal(count_nodes(&file.deck, &b.lattice).stepped, 0);
 }
 
 /* Cracks are as wide as a row of triangles, and their faces are steps. */
@@ -197,7 +206,7 @@ TEST(of_two_bodies_each_node_counts_with_its_own)
     CLEANUP(drop_built) built b = build(BLOCK SQUARES " /\n" DISC);
     CLEANUP(drop_built) built disc = build(DISC);
     assert_int_equal(dem_lattice_append(&b.lattice, &disc.lattice), DEM_OK);
-    const counts n = count_nodes(&b.deck.deck, &b.lattice, 2);
+    const counts n = count_nodes(&b.deck.deck, &b.lattice);
     assert_int_equal(n.stepped, count(DISC).stepped);
     assert_int_equal(n.boundary - n.stepped, 36);
 }
@@ -205,5 +214,5 @@ TEST(of_two_bodies_each_node_counts_with_its_own)
 TEST(nothing_is_said_of_bodies_that_are_not_those_of_the_deck)
 {
     CLEANUP(drop_built) built b = build(DISC DISC);
-    assert_int_equal(count_nodes(&b.deck.deck, &b.lattice, 1).stepped, 0);
+    assert_int_equal(count_nodes(&b.deck.deck, &b.lattice).stepped, 0);
 }
