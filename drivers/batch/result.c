@@ -72,10 +72,10 @@ static void write_counts(json *j, const dem_counts *c)
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) json_integer(j, all[k].key, all[k].n);
 }
 
-static void write_contact(json *j, const rebound *r, const dem_state *state, const dem_simulation *simulation)
+static void write_contact(json *j, const rebound *r, const dem_progress *now, const dem_simulation *simulation)
 {
     const double never = (double)NAN;
-    json_integer(j, "contacts", state->n_contacts);
+    json_integer(j, "contacts", now->n_contacts);
     json_real(j, "first_contact", r->touched ? r->first : never);
     json_real(j, "last_contact", r->touched ? r->last : never);
     json_real(j, "touching_time", r->touched ? r->touching : never);
@@ -321,11 +321,11 @@ static void write_warnings(json *j, const run_log *log)
 static void write_run(json *j, const result *r)
 {
     const dem_counts counts = ask_counts(r->simulation);
-    const dem_state state = ask_state(r->simulation);
+    const dem_progress now = ask_progress(r->simulation);
     write_warnings(j, r->report->log);
-    json_real(j, "t", state.t);
+    json_real(j, "t", now.t);
     write_counts(j, &counts);
-    write_contact(j, &r->report->so_far.rebound, &state, r->simulation);
+    write_contact(j, &r->report->so_far.rebound, &now, r->simulation);
     write_rebound(j, &r->report->so_far.rebound, r->simulation);
     write_force(j, &r->report->so_far.rebound);
     const dem_energy energy = ask_energy(r->simulation);

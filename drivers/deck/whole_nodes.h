@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the log asks of single nodes and springs, as of those that were stressed most, and of all nodes where bodies leave
- * an obstacle. For nothing else dem_batch looks at the arrays of a model's lattice or of a state. */
+/* What the log asks of single nodes and springs, as of those that were stressed most, and of all nodes where bodies
+ * leave an obstacle. For nothing else dem_batch looks at the arrays of a model's lattice or of a state. */
 #ifndef DEM_WHOLE_NODES_H
 #define DEM_WHOLE_NODES_H
 
