@@ -74,6 +74,29 @@ dem_index reduce_count(const ranks *r, dem_index own)
     return own;
 }
 
+enum { COUNTS_MOST = 256 };
+
+typedef struct several_counts {
+    dem_index n, counts[COUNTS_MOST]; /* [n] are sent */
+} several_counts;
+
+static void join_counts(void *packet, const void *other)
+{
+    several_counts *own = packet;
+    for (dem_index k = 0; k < own->n; k++) own->counts[k] += ((const several_counts *)other)->counts[k];
+}
+
+void reduce_counts(const ranks *r, dem_index *counts, dem_index n)
+{
+    for (dem_index first = 0; first < n && r->size > 1; first += COUNTS_MOST) {
+        several_counts all = {.n = n - first < COUNTS_MOST ? n - first : COUNTS_MOST};
+        const size_t size = (size_t)all.n * sizeof *counts;
+        memcpy(all.counts, counts + first, size);
+        r->reduce(r->self, &all, offsetof(several_counts, counts) + size, join_counts);
+        memcpy(counts + first, all.counts, size);
+    }
+}
+
 static void join_sum(void *packet, const void *other)
 {
     exact_sum more = *(const exact_sum *)other;

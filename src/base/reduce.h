@@ -33,6 +33,9 @@ bool reduce_alike(const ranks *r, uint64_t own);
 /** The sum of counts; each item is counted by one rank. */
 dem_index reduce_count(const ranks *r, dem_index own);
 
+/** The same of n counts.  \param[in,out] counts  [n] */
+void reduce_counts(const ranks *r, dem_index *counts, dem_index n);
+
 /** The sum of all terms of all ranks, rounded once: its bits do not depend on which rank has which terms. */
 double reduce_sum(const ranks *r, const exact_sum *own);
 

@@ -22,27 +22,17 @@
 
 /* ---- validation ---- */
 
-/* A node without springs is legal only as a body of its own, and the numbers of bodies have no holes. Loops go
- * backwards so that the first fault is named. */
+/* A node without springs is legal only as a body of its own, or of a rigid one. */
 static dem_status check_bodies(const dem_model *m)
 {
-    dem_index *size = lattice_zeros(m->n_bodies, sizeof *size);
-    CHECK_MEMORY(size);
-    const dem_lattice *l = &m->lattice;
-    dem_index loose = -1, empty = -1;
-    for (dem_index i = 0; i < l->n_nodes; i++) size[l->body[i]]++;
-    for (dem_index b = 0; b < m->n_bodies; b++) size[b] = reduce_count(m->ranks, size[b]);
-    for (dem_index i = l->n_nodes - 1; i >= 0; i--)
-        if (m->springs.row[i] == m->springs.row[i + 1] && size[l->body[i]] > 1 && !rigid_bodies_at(&m->rigid, i))
-            loose = i;
-    for (dem_index b = m->n_bodies - 1; b >= 0; b--)
-        if (size[b] == 0) empty = b;
-    free(size);
-    CHECK(loose < 0, DEM_ERROR_MODEL, "node %lld at (%g, %g) m has no springs, though body %d has other nodes",
-          (long long)loose, l->x[2 * loose], l->x[2 * loose + 1], l->body[loose]);
-    CHECK(empty < 0, DEM_ERROR_MODEL, "body %lld has no nodes, though there are bodies up to %lld", (long long)empty,
-          (long long)(m->n_bodies - 1));
-    return DEM_OK;
+    const dem_index own[2] = {0, m->lattice.n_nodes};
+    unsigned char *is_loose = lattice_zeros(own[1], sizeof *is_loose);
+    CHECK_MEMORY(is_loose);
+    for (dem_index i = 0; i < own[1]; i++)
+        is_loose[i] = m->springs.row[i] == m->springs.row[i + 1] && !rigid_bodies_at(&m->rigid, i);
+    const dem_status status = model_rules_check_bodies(&m->lattice, m->ranks, own, is_loose);
+    free(is_loose);
+    return status;
 }
 
 /* ---- compilation ---- */
@@ -124,7 +114,7 @@ static dem_status compile(dem_model *m, const dem_obstacle *list, dem_index n)
 {
     TRY(reduce_status(m->ranks, compile_parts(m, list, n), 0.0));
     TRY(model_find_scales(m, NULL));
-    return reduce_status(m->ranks, check_bodies(m), 0.0);
+    return check_bodies(m);
 }
 
 /* ---- public ---- */

@@ -3,7 +3,9 @@
 #include "model/model_rules.h"
 
 #include <math.h>
+#include <stdlib.h>
 
+#include "base/reduce.h"
 #include "base/status.h"
 #include "base/vec2.h"
 #include "lattice/lattice.h"
@@ -111,4 +113,40 @@ dem_status model_rules_check(const dem_lattice *l, dem_index n_whole)
     TRY(lattice_check(l));
     TRY(check_springs(l));
     return check_triangles(l);
+}
+
+/* ---- bodies ---- */
+
+/* Loops go backwards so that the first fault is named.
+ * \param size  [bodies] nodes of all ranks */
+static dem_status check_sizes(const dem_lattice *l, const dem_index own[2], const unsigned char *is_loose,
+                              const dem_index *size, dem_index n_bodies)
+{
+    dem_index loose = -1, empty = -1;
+    for (dem_index i = own[1] - 1; i >= own[0]; i--)
+        if (is_loose[i] && size[l->body[i]] > 1) loose = i;
+    for (dem_index b = n_bodies - 1; b >= 0; b--)
+        if (size[b] == 0) empty = b;
+    CHECK(loose < 0, DEM_ERROR_MODEL, "node %lld at (%g, %g) m has no springs, though body %d has other nodes",
+          (long long)loose, l->x[2 * loose], l->x[2 * loose + 1], l->body[loose]);
+    CHECK(empty < 0, DEM_ERROR_MODEL, "body %lld has no nodes, though there are bodies up to %lld", (long long)empty,
+          (long long)(n_bodies - 1));
+    return DEM_OK;
+}
+
+dem_status model_rules_check_bodies(const dem_lattice *l, const ranks *r, const dem_index own[2],
+                                    const unsigned char *is_loose)
+{
+    const dem_index n_bodies = (dem_index)reduce_max(r, (double)lattice_count_bodies(l));
+    dem_index *size = lattice_zeros(n_bodies, sizeof *size);
+    dem_status status =
+        size != NULL ? DEM_OK : status_fail(DEM_ERROR_MEMORY, "out of memory for %lld bodies", (long long)n_bodies);
+    status = reduce_status(r, status, 0.0);
+    if (status == DEM_OK) {
+        for (dem_index i = own[0]; i < own[1]; i++) size[l->body[i]]++;
+        reduce_counts(r, size, n_bodies);
+        status = reduce_status(r, check_sizes(l, own, is_loose, size, n_bodies), 0.0);
+    }
+    free(size);
+    return status;
 }

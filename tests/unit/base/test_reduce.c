@@ -7,13 +7,13 @@
 #include "harness/rank_threads.h"
 #include "harness/test.h"
 
-enum { MOST_RANKS = 7, N_TERMS = 700, TEXT = 64 };
+enum { MOST_RANKS = 7, N_TERMS = 700, N_COUNTS = 600, TEXT = 64 };
 
 /* What each rank has found. */
 typedef struct results {
     double least, largest, with_nan, sum, sums[2], reported[2];
     bool any, none, alike, alike_but_one;
-    dem_index count;
+    dem_index count, counts[N_COUNTS];
     array_ops_sum squares;
     dem_status fine, failed;
     char message[TEXT];
@@ -46,6 +46,8 @@ static void reduce_all(const ranks *r, void *context)
     of->alike = reduce_alike(r, 77);
     of->alike_but_one = reduce_alike(r, r->rank == r->size - 1 ? 78 : 77);
     of->count = reduce_count(r, r->rank + 1);
+    for (int k = 0; k < N_COUNTS; k++) of->counts[k] = k * (r->rank + 1);
+    reduce_counts(r, of->counts, N_COUNTS);
     of->sum = reduce_sum(r, &sum);
     const exact_sum ranks_there = exact_sum_of(1.0);
     reduce_sums(r, (const exact_sum *[]){&sum, &ranks_there}, 2, of->sums);
@@ -75,6 +77,7 @@ TEST(every_rank_gets_the_same_whatever_the_shares)
             assert_true(all[k].any && !all[k].none);
             assert_true(all[k].alike && all[k].alike_but_one == (n == 1));
             assert_int_equal(all[k].count, n * (n + 1) / 2);
+            for (int q = 0; q < N_COUNTS; q++) assert_int_equal(all[k].counts[q], q * n * (n + 1) / 2);
             assert_true(all[k].sum == exact_sum_value(&sum));
             assert_true(all[k].sums[0] == exact_sum_value(&sum) && all[k].sums[1] == (double)n);
             assert_true(all[k].reported[0] == (double)n && all[k].reported[1] == (double)n);
