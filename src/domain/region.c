@@ -24,6 +24,7 @@ typedef struct numbers {
 typedef struct draft {
     slab_rows *rows;
     bool has_own;      /* whether all own nodes are known, which then are in no list */
+    numbers common;    /* nodes that any rank has marked, ascending */
     numbers known;     /* nodes that have been asked for, ascending */
     numbers next;      /* nodes next to these, as they have come */
     numbers wanted;    /* nodes to be asked for, ascending */
@@ -236,36 +237,31 @@ static dem_status want(draft *d, numbers *from)
             (k < d->known.n && d->known.list[k] == from->list[q]) || (d->has_own && is_own(d, from->list[q]));
         if (!is_known && !add(&d->wanted, from->list[q])) return lacks_memory();
     }
-    from->n = 0;
     return DEM_OK;
-}
-
-static dem_status fetch_list(draft *d, numbers *from)
-{
-    TRY(reduce_status(d->rows->ranks, want(d, from), 0.0));
-    return fetch(d);
 }
 
 static dem_status fetch_rings(draft *d, int n)
 {
-    for (int ring = 0; ring < n; ring++) TRY(fetch_list(d, &d->next));
+    for (int ring = 0; ring < n; ring++) {
+        TRY(reduce_status(d->rows->ranks, want(d, &d->next), 0.0));
+        d->next.n = 0;
+        TRY(fetch(d));
+    }
     return DEM_OK;
 }
 
 /* ---- common and own nodes ---- */
 
-/* Own ones that may touch obstacles. */
-static dem_status list_touching(draft *d)
+/* \param is_common  as region_extent has it */
+static dem_status list_marked(draft *d, const unsigned char *is_common)
 {
     const slab_rows *s = d->rows;
     for (dem_index i = 0; i < s->lattice->n_nodes; i++)
-        if (slab_rows_owns(s, i) && (s->lattice->flags[i] & DEM_NODE_CONTACT) != 0 &&
-            !add(&d->wanted, slab_rows_number(s, i)))
-            return lacks_memory();
+        if (is_common[i] && slab_rows_owns(s, i) && !add(&d->wanted, slab_rows_number(s, i))) return lacks_memory();
     return DEM_OK;
 }
 
-static dem_status send_touching(draft *d)
+static dem_status send_marked(draft *d)
 {
     for (int k = 0; k < d->rows->ranks->size; k++)
         if (!bundle_add(&d->asking[k], d->wanted.list, (size_t)d->wanted.n * sizeof *d->wanted.list))
@@ -273,7 +269,7 @@ static dem_status send_touching(draft *d)
     return DEM_OK;
 }
 
-static dem_status take_touching(draft *d, numbers *all)
+static dem_status take_marked(draft *d)
 {
     const int rank = d->rows->ranks->rank;
     for (int k = 0; k < d->rows->ranks->size; k++) {
@@ -281,33 +277,32 @@ static dem_status take_touching(draft *d, numbers *all)
         for (dem_index at = 0; at < from->n;) {
             dem_index number;
             bundle_take(from, &at, &number, sizeof number);
-            if (!add(all, number)) return lacks_memory();
+            if (!add(&d->common, number)) return lacks_memory();
         }
     }
     return DEM_OK;
 }
 
 /* Of all ranks. */
-static dem_status gather_touching(draft *d, numbers *all)
+static dem_status gather_marked(draft *d, const unsigned char *is_common)
 {
     const ranks *r = d->rows->ranks;
-    dem_status status = list_touching(d);
-    if (status == DEM_OK) status = send_touching(d);
+    dem_status status = list_marked(d, is_common);
+    if (status == DEM_OK) status = send_marked(d);
     status = reduce_status(r, status, 0.0);
     if (status == DEM_OK) status = bundles_exchange(r, d->asking, d->asked);
-    if (status == DEM_OK) status = reduce_status(r, take_touching(d, all), 0.0);
+    if (status == DEM_OK) status = reduce_status(r, take_marked(d), 0.0);
     bundles_free(d->asking, r->size);
     bundles_free(d->asked, r->size);
     return status;
 }
 
-static dem_status fetch_common(draft *d, int n_rings)
+static dem_status fetch_common(draft *d, const region_extent *extent)
 {
-    numbers touching = {0};
-    dem_status status = gather_touching(d, &touching);
-    if (status == DEM_OK) status = fetch_list(d, &touching);
-    free(touching.list);
-    return status == DEM_OK ? fetch_rings(d, n_rings) : status;
+    TRY(gather_marked(d, extent->is_common));
+    TRY(reduce_status(d->rows->ranks, want(d, &d->common), 0.0));
+    TRY(fetch(d));
+    return fetch_rings(d, extent->common_rings);
 }
 
 static void forget_own(numbers *list, const draft *d)
@@ -498,10 +493,20 @@ static dem_status put_in_order(region *g, draft *d, order *o)
     return DEM_OK;
 }
 
-static dem_status finish(region *g, draft *d)
+static dem_status mark_common(region *g, const draft *d)
+{
+    g->is_common = lattice_zeros(g->lattice.n_nodes, sizeof *g->is_common);
+    if (g->is_common == NULL) return lacks_memory();
+    const dem_index n_before = sorted_first(d->known.list, d->known.n, own_of(d)[0]);
+    for (dem_index k = 0; k < d->common.n; k++) g->is_common[node_in_region(d, n_before, d->common.list[k])] = 1;
+    return DEM_OK;
+}
+
+static dem_status finish(region *g, draft *d, bool has_common)
 {
     order o[LATTICE_ITEMS] = {{0}};
-    const dem_status status = put_in_order(g, d, o);
+    dem_status status = put_in_order(g, d, o);
+    if (status == DEM_OK && has_common) status = mark_common(g, d);
     for (int of = 0; of < LATTICE_ITEMS; of++) {
         free(o[of].own);
         free(o[of].at);
@@ -524,8 +529,8 @@ static dem_status open_draft(draft *d, slab_rows *rows)
 
 static void close_draft(draft *d)
 {
-    numbers *const lists[] = {&d->known, &d->next, &d->wanted};
-    for (int k = 0; k < 3; k++) free(lists[k]->list);
+    numbers *const lists[] = {&d->common, &d->known, &d->next, &d->wanted};
+    for (int k = 0; k < 4; k++) free(lists[k]->list);
     for (int of = 0; of < LATTICE_ITEMS; of++) free(d->number[of].list);
     dem_lattice_free(&d->found);
     free(d->asking);
@@ -537,7 +542,7 @@ static void close_draft(draft *d)
 /* What is next to nodes that are known is collected from the first row on, but known to be asked for last. */
 static dem_status gather(draft *d, const region_extent *extent)
 {
-    if (extent->has_common) TRY(fetch_common(d, extent->common_rings));
+    if (extent->is_common != NULL) TRY(fetch_common(d, extent));
     TRY(reduce_status(d->rows->ranks, take_own(d), 0.0));
     return fetch_rings(d, extent->rings);
 }
@@ -548,7 +553,7 @@ dem_status region_create(region *out, slab_rows *rows, const region_extent *exte
     *out = (region){.lattice = dem_lattice_empty()};
     dem_status status = reduce_status(rows->ranks, open_draft(&d, rows), 0.0);
     if (status == DEM_OK) status = gather(&d, extent);
-    if (status == DEM_OK) status = reduce_status(rows->ranks, finish(out, &d), 0.0);
+    if (status == DEM_OK) status = reduce_status(rows->ranks, finish(out, &d, extent->is_common != NULL), 0.0);
     close_draft(&d);
     return status;
 }
@@ -557,5 +562,6 @@ void region_free(region *g)
 {
     dem_lattice_free(&g->lattice);
     for (int of = 0; of < LATTICE_ITEMS; of++) free(g->number[of]);
+    free(g->is_common);
     *g = (region){.lattice = dem_lattice_empty()};
 }

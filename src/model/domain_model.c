@@ -30,6 +30,7 @@
 #include "domain/region.h"
 #include "model/domain_compile.h"
 #include "model/domain_message.h"
+#include "model/slab_lattice.h"
 
 /* ---- from the whole that each rank has ---- */
 
@@ -147,13 +148,26 @@ static dem_status list_owners(surroundings *g, const slab_rows *rows)
     return DEM_OK;
 }
 
-/* Rows end, as nobody asks for any more of them. */
-static dem_status gather(surroundings *g, slab_rows *rows, const region_extent *extent)
+static region_extent extent_of(const whole_parts *of, const ranks *r, const domain_model_shares *shares,
+                               const unsigned char *is_common)
 {
-    g->owner = NULL;
-    TRY(region_create(&g->region, rows, extent));
-    const dem_status status = list_owners(g, rows);
+    return (region_extent){.is_common = is_common,
+                           .common_rings = of->has_obstacles ? whole_lattice_rings(of->lattice) : 0,
+                           .rings = whole_lattice_most_rings(of, r->size, shares) + 1};
+}
+
+/* Rows end, as nobody asks for any more of them. */
+static dem_status gather(surroundings *g, slab_rows *rows, const whole_parts *of, const domain_model_shares *shares)
+{
+    unsigned char *marks;
+    *g = (surroundings){.region.lattice = dem_lattice_empty()};
+    dem_status status = slab_lattice_mark_common(&marks, of->lattice, of->has_obstacles, shares->touching);
+    status = reduce_status(rows->ranks, status, 0.0);
+    const region_extent extent = extent_of(of, rows->ranks, shares, marks);
+    if (status == DEM_OK) status = region_create(&g->region, rows, &extent);
+    if (status == DEM_OK) status = list_owners(g, rows);
     slab_rows_free(rows);
+    free(marks);
     return status;
 }
 
@@ -169,13 +183,6 @@ static dem_status cut_region(domain_cut *c, const ranks *r, const whole_parts *o
     return status;
 }
 
-static region_extent extent_of(const whole_parts *of, const ranks *r, const domain_model_shares *shares)
-{
-    return (region_extent){.has_common = of->has_obstacles,
-                           .common_rings = of->has_obstacles ? whole_lattice_rings(of->lattice) : 0,
-                           .rings = whole_lattice_most_rings(of, r->size, shares) + 1};
-}
-
 static dem_status cut_slabs(domain_cut *c, slab_rows *rows, domain_model_shares shares, bool has_obstacles)
 {
     const rigid_bodies none = {0};
@@ -186,11 +193,11 @@ static dem_status cut_slabs(domain_cut *c, slab_rows *rows, domain_model_shares 
                       .has_obstacles = has_obstacles,
                       .is_slack = whole_lattice_is_slack(rows->lattice),
                       .counting = r};
-    const region_extent extent = extent_of(&of, r, &shares);
     surroundings g;
-    dem_status status = gather(&g, rows, &extent);
+    dem_status status = gather(&g, rows, &of, &shares);
     dem_lattice *l = &g.region.lattice;
     of.lattice = l;
+    of.is_common = g.region.is_common;
     for (int k = 0; k < LATTICE_ITEMS; k++) of.number[k] = g.region.number[k];
     shares.owner = g.owner;
     if (status == DEM_OK) status = cut_region(c, r, &of, &shares, l);
@@ -206,6 +213,6 @@ dem_status domain_model_gather(dem_model **out, slab_rows *rows, const domain_mo
     domain_cut c = {0};
     dem_status status = cut_slabs(&c, rows, *shares, n_obstacles > 0);
     freed_memory_return(c.around.n_nodes);
-    if (status == DEM_OK) status = domain_compile(&c, obstacles, n_obstacles, false);
+    if (status == DEM_OK) status = domain_compile(&c, obstacles, n_obstacles, shares->touching);
     return finish(out, r, &c, status);
 }

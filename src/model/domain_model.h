@@ -26,8 +26,7 @@ dem_status domain_model_distribute(dem_model **out, const ranks *r, const dem_mo
                                    const domain_model_shares *shares, const dem_obstacle *obstacles,
                                    dem_index n_obstacles);
 
-/** The same where each rank has a slab of the whole, and owns the nodes of its range; nobody has the whole, and bodies
- *  do not touch each other.
+/** The same where each rank has a slab of the whole, and owns the nodes of its range; nobody has the whole.
  *  \param rows    of a lattice that has velocities, and nothing rigid or breakable; they end, and so do the arrays of
  *                 the slab
  *  \param shares  without owners, and nodes that are near */

@@ -83,6 +83,15 @@ dem_status mesh_boundary_create(mesh_boundary *out, const dem_lattice *lattice, 
     return status;
 }
 
+dem_status mesh_boundary_mark_nodes(const dem_lattice *lattice, unsigned char *flags, unsigned char bits)
+{
+    mesh_boundary b;
+    TRY(mesh_boundary_create(&b, lattice, NULL));
+    mesh_boundary_mark(&b, flags, bits);
+    mesh_boundary_free(&b);
+    return DEM_OK;
+}
+
 /* ---- from an earlier one ---- */
 
 static int compare(const void *a, const void *b)

@@ -31,4 +31,7 @@ dem_status mesh_boundary_follow(mesh_boundary *out, const mesh_boundary *before,
 /** Sets bits in the flags [n_nodes] of the nodes on it. */
 void mesh_boundary_mark(const mesh_boundary *b, unsigned char *flags, unsigned char bits);
 
+/** The same of all triangles of a lattice, of which no boundary is kept.  \return DEM_ERROR_MEMORY */
+dem_status mesh_boundary_mark_nodes(const dem_lattice *lattice, unsigned char *flags, unsigned char bits);
+
 #endif

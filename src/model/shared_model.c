@@ -136,8 +136,6 @@ static dem_status share_whole(dem_model **out, const dem_private_whole *whole, c
 static dem_status prepare_slab(dem_slab *slab, void **obstacles, const dem_private_whole *of)
 {
     TRY(of->refused);
-    CHECK(of->touching != DEM_PRIVATE_TOUCHING_SOME, DEM_ERROR_MODEL,
-          "bodies in slabs cannot touch each other, nor themselves: option `bodies`");
     CHECK(of->n_obstacles >= 0 && (of->n_obstacles == 0 || of->obstacles != NULL), DEM_ERROR_ARGUMENT,
           "%lld obstacles, obstacles is %s", (long long)of->n_obstacles, of->obstacles ? "given" : "NULL");
     TRY(obstacle_input_read_all(obstacles, of->obstacles, of->n_obstacles));
@@ -147,12 +145,13 @@ static dem_status prepare_slab(dem_slab *slab, void **obstacles, const dem_priva
 static dem_status gather(dem_model **out, const ranks *r, dem_slab *slab, const dem_private_whole *of,
                          const dem_obstacle *obstacles)
 {
-    const domain_model_shares shares = {.use = of->use};
+    const domain_model_shares shares = {.touching = of->touching == DEM_PRIVATE_TOUCHING_SOME, .use = of->use};
     slab_rows rows;
     CHECK(reduce_alike(r, hash_of_obstacles(1, obstacles, of->n_obstacles)), DEM_ERROR_ARGUMENT,
           "the obstacles of the %d ranks differ", r->size);
     TRY(check_use(r, &shares));
     dem_status status = slab_rows_create(&rows, r, slab);
+    if (status == DEM_OK) status = slab_lattice_check_bodies(slab, &rows);
     if (status == DEM_OK) status = domain_model_gather(out, &rows, &shares, obstacles, of->n_obstacles);
     slab_rows_free(&rows);
     return status;

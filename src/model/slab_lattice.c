@@ -1,17 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Own nodes have all of their triangles, and so the flags that they have in the whole. Those of the rim come
- * from their owners. */
+/* Own nodes have all of their triangles, and so the flags that they have in the whole, and are on its boundary if they
+ * are on that of the slab. What the rim has comes from its owners. */
 #include "model/slab_lattice.h"
 
 #include <stdlib.h>
 
+#include "base/reduce.h"
 #include "base/status.h"
 #include "base/vec2.h"
 #include "lattice/lattice.h"
 #include "lattice/mesh_edges.h"
 #include "lattice/slab.h"
 #include "model/breakable_nodes.h"
+#include "model/mesh_boundary.h"
 #include "model/model_rules.h"
+
+static dem_status lacks_memory(const dem_lattice *l)
+{
+    return status_fail(DEM_ERROR_MEMORY, "out of memory for a slab of %lld nodes", (long long)l->n_nodes);
+}
 
 /* ---- what is refused ---- */
 
@@ -19,29 +26,21 @@ static dem_status check_kind(const dem_lattice *l)
 {
     CHECK(l->n_triangles > 0, DEM_ERROR_MODEL, "slabs of bodies without triangles are not supported");
     CHECK(!breakable_lattice(l), DEM_ERROR_MODEL, "slabs of bodies that may break are not supported");
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        CHECK(l->body == NULL || l->body[i] == 0, DEM_ERROR_MODEL,
-              "node %lld: slabs of several bodies are not supported", (long long)i);
+    for (dem_index i = 0; i < l->n_nodes; i++)
         CHECK(l->flags == NULL || !(l->flags[i] & DEM_NODE_RIGID), DEM_ERROR_MODEL,
               "node %lld: slabs of rigid bodies are not supported", (long long)i);
-    }
     return DEM_OK;
 }
 
-/* Own nodes have springs. */
-static dem_status check_springs(const dem_slab *s)
+dem_status slab_lattice_check_bodies(const dem_slab *s, const slab_rows *rows)
 {
-    const dem_lattice *l = &s->lattice;
-    bool *has_spring = lattice_zeros(l->n_nodes, sizeof *has_spring);
-    dem_index loose = -1;
-    CHECK_MEMORY(has_spring);
-    for (dem_index k = 0; k < 2 * l->n_springs; k++) has_spring[l->ends[k]] = true;
-    for (dem_index i = s->first_own; i < s->first_own + s->n_own && loose < 0; i++)
-        if (!has_spring[i]) loose = i;
-    free(has_spring);
-    CHECK(loose < 0, DEM_ERROR_MODEL, "node %lld at (%g, %g) m has no springs", (long long)loose, l->x[2 * loose],
-          l->x[2 * loose + 1]);
-    return DEM_OK;
+    const dem_index own[2] = {s->first_own, s->first_own + s->n_own};
+    unsigned char *is_loose = lattice_zeros(s->lattice.n_nodes, sizeof *is_loose);
+    TRY(reduce_status(rows->ranks, is_loose != NULL ? DEM_OK : lacks_memory(&s->lattice), 0.0));
+    for (dem_index i = own[0]; i < own[1]; i++) is_loose[i] = rows->springs.row[i] == rows->springs.row[i + 1];
+    const dem_status status = model_rules_check_bodies(&s->lattice, rows->ranks, own, is_loose);
+    free(is_loose);
+    return status;
 }
 
 /* ---- what arrays stand for ---- */
@@ -53,11 +52,24 @@ static dem_status complete(dem_lattice *l)
     if (!has_flags) l->flags = lattice_zeros(l->n_nodes, sizeof *l->flags);
     if (l->body == NULL) l->body = lattice_zeros(l->n_nodes, sizeof *l->body);
     if (l->velocity == NULL) l->velocity = lattice_zeros(l->n_nodes, 2 * sizeof *l->velocity);
-    CHECK(l->flags && l->body && l->velocity, DEM_ERROR_MEMORY, "out of memory for a slab of %lld nodes",
-          (long long)l->n_nodes);
+    if (l->flags == NULL || l->body == NULL || l->velocity == NULL) return lacks_memory(l);
     if (!has_flags) TRY(mesh_edges_contact_flags(l->flags, l));
     for (dem_index i = 0; i < l->n_nodes; i++)
         if (l->flags[i] & DEM_NODE_FIXED) vec2_put(l->velocity, i, (vec2){0.0, 0.0});
+    return DEM_OK;
+}
+
+/* ---- common nodes ---- */
+
+dem_status slab_lattice_mark_common(unsigned char **out, const dem_lattice *l, bool has_obstacles, bool touching)
+{
+    *out = NULL;
+    if (!has_obstacles && !touching) return DEM_OK;
+    unsigned char *marks = *out = lattice_zeros(l->n_nodes, sizeof *marks);
+    if (marks == NULL) return lacks_memory(l);
+    if (touching) TRY(mesh_boundary_mark_nodes(l, marks, 1));
+    for (dem_index i = 0; i < l->n_nodes && has_obstacles; i++)
+        if (l->flags[i] & DEM_NODE_CONTACT) marks[i] = 1;
     return DEM_OK;
 }
 
@@ -69,6 +81,5 @@ dem_status slab_lattice_take(dem_slab *out, dem_slab *slab)
     TRY(slab_take(out, slab));
     TRY(model_rules_check(&out->lattice, out->n_nodes));
     TRY(check_kind(&out->lattice));
-    TRY(check_springs(out));
     return complete(&out->lattice);
 }

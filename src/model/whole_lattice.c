@@ -3,11 +3,13 @@
 #include "model/whole_lattice.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/status.h"
 #include "domain/common_nodes.h"
 #include "lattice/lattice.h"
 #include "model/breakable_nodes.h"
+#include "model/mesh_boundary.h"
 
 whole_parts whole_parts_of(const dem_model *m)
 {
@@ -39,20 +41,24 @@ static void mark_near(const whole_parts *whole, const unsigned char *is_near, un
     }
 }
 
-/* \param boundary  of surfaces that may touch each other; NULL: none do. Without obstacles, and what may break, there
- *  are no events, and so no rings. What is not near has none either */
-static dem_status find_common(const whole_parts *whole, const mesh_boundary *boundary, const unsigned char *is_near,
+static bool has_events(const whole_parts *whole)
+{
+    return whole->has_obstacles || breakable_lattice(whole->lattice);
+}
+
+/* Without obstacles, and what may break, there are no events, and so no rings. What is not near has none either.
+ * \param touching  whether surfaces may touch each other */
+static dem_status find_common(const whole_parts *whole, bool touching, const unsigned char *is_near,
                               unsigned char *is_common)
 {
     const dem_lattice *l = whole->lattice;
     TRY(breakable_nodes_mark(l, is_common));
     mark_near(whole, is_near, is_common);
-    if (boundary != NULL && is_near == NULL) mesh_boundary_mark(boundary, is_common, 1);
-    if (whole->has_obstacles || breakable_lattice(l)) common_nodes_add_rings(l, whole_lattice_rings(l), is_common);
+    if (touching && is_near == NULL) TRY(mesh_boundary_mark_nodes(l, is_common, 1));
+    if (has_events(whole)) common_nodes_add_rings(l, whole_lattice_rings(l), is_common);
     if (is_near == NULL) return DEM_OK;
     mark_near(whole, NULL, is_common);
-    if (boundary != NULL) mesh_boundary_mark(boundary, is_common, 1);
-    return DEM_OK;
+    return touching ? mesh_boundary_mark_nodes(l, is_common, 1) : DEM_OK;
 }
 
 /* Where springs are damped accelerations follow from velocities of neighbours, so that a step would need twice as many
@@ -133,16 +139,16 @@ static dem_status list_elements(whole_lattice *w)
     return node_rows_create(&w->triangles, l->triangles, 3, l->n_triangles, l->n_nodes);
 }
 
+/* Of a part with the rings, as the nodes that they are about are known. */
 static dem_status look_for_common(whole_lattice *w, const domain_model_shares *shares)
 {
     const dem_lattice *l = w->of.lattice;
-    mesh_boundary boundary = {0};
     w->is_common = lattice_zeros(l->n_nodes, sizeof *w->is_common);
     CHECK_MEMORY(w->is_common);
-    if (shares->touching) TRY(mesh_boundary_create(&boundary, l, NULL));
-    const dem_status status = find_common(&w->of, shares->touching ? &boundary : NULL, shares->is_near, w->is_common);
-    mesh_boundary_free(&boundary);
-    return status;
+    if (w->of.is_common == NULL) return find_common(&w->of, shares->touching, shares->is_near, w->is_common);
+    memcpy(w->is_common, w->of.is_common, (size_t)l->n_nodes);
+    if (has_events(&w->of)) common_nodes_add_rings(l, whole_lattice_rings(l), w->is_common);
+    return DEM_OK;
 }
 
 dem_status whole_lattice_open(whole_lattice *out, const whole_parts *of, int n_ranks, const domain_model_shares *shares)

@@ -18,6 +18,9 @@ typedef struct whole_parts {
     dem_index n[LATTICE_ITEMS]; /* nodes, springs and triangles of the whole */
     /* [nodes], [springs], [triangles] of the lattice: numbers in the whole, ascending; all NULL: it is the whole */
     const dem_index *number[LATTICE_ITEMS];
+    /* [nodes] 1: common, as owners have found in the whole where nothing may break or is rigid, without rings about
+     * such nodes; NULL: to be found in the lattice */
+    const unsigned char *is_common;
     const ranks *counting; /* as domain_shares has it */
     bool has_obstacles;
     bool is_slack; /* whole_lattice_is_slack() */
@@ -36,9 +39,10 @@ whole_parts whole_parts_of(const dem_model *model);
 
 /** Finds all that. Borrows what the parts have, and the owners of the shares. A part of the whole needs the own and all
  *  common nodes of a rank, those that are as many rings away from these as there may be of ghosts and one more, and all
- *  springs and triangles between all of them; owners are then those of its nodes, bodies do not touch, and all that may
- *  touch an obstacle is near. Collective, where ranks count together. Free with whole_lattice_close(), after a failure,
- *  too.  \return DEM_ERROR_MEMORY */
+ *  springs and triangles between all of them; owners are then those of its nodes, and all that may touch an obstacle is
+ *  near. Where bodies touch common nodes have to be given, as triangles have sides of their own where a part ends.
+ *  Collective, where ranks count together. Free with whole_lattice_close(), after a failure, too.
+ *  \return DEM_ERROR_MEMORY */
 dem_status whole_lattice_open(whole_lattice *out, const whole_parts *of, int n_ranks,
                               const domain_model_shares *shares);
 void whole_lattice_close(whole_lattice *w);

@@ -138,8 +138,7 @@ static dem_status check_shared(const dem_simulation *s)
     if (s->model->domain == NULL) return DEM_OK;
     CHECK(o->bodies == DEM_BODIES_NONE || (s->model->touching != NULL && s->model->touching->has_all),
           DEM_ERROR_ARGUMENT,
-          "bodies touch in a model of which ranks share no surfaces: a body alone without obstacles does not touch "
-          "itself yet");
+          "bodies touch in a model of which ranks share no surfaces: it has to be made for options in which they do");
     return DEM_OK;
 }
 

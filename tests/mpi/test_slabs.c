@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ranks that are processes, each with a slab of a block, or of a disc with a hole, that falls on a floor: positions,
- * velocities and energies have the bits of one process that has the whole. `mpirun -n N test_slabs`. */
+/* Ranks that are processes, each with a slab of a block, of a disc with a hole, or of two blocks that hit each other,
+ * which fall on a floor: positions, velocities, energies and surfaces have the bits of one process that has the whole.
+ * `mpirun -n N test_slabs`. */
 #include <stdlib.h>
 
 #include "rank_test.h"
@@ -50,6 +51,57 @@ static dem_slab make_slab(const dem_shape *shape, team t)
     return s;
 }
 
+/* ---- two blocks ---- */
+
+/* The upper one is turned, and comes down on the lower one. */
+static dem_lattice make_blocks(void)
+{
+    dem_lattice upper = dem_lattice_empty(), l = make_whole(NULL);
+    INSIST(dem_lattice_rectangle(&upper, 0.6 * width, 0.4 * height, spacing) == DEM_OK);
+    finish_block(&upper);
+    INSIST(dem_lattice_launch(&upper, (const double[2]){4.0, -20.0}) == DEM_OK);
+    dem_lattice_move(&upper, 0.1, (const double[2]){0.0, height + spacing});
+    INSIST(dem_lattice_append(&l, &upper) == DEM_OK);
+    dem_lattice_free(&upper);
+    return l;
+}
+
+/* Own nodes and their neighbours. */
+static bool *mark(const dem_lattice *l, const dem_slab *s)
+{
+    bool *keep = calloc((size_t)l->n_nodes, sizeof *keep);
+    INSIST(keep != NULL);
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++) {
+        const dem_index at = l->triangles[k] - s->first_node, first = k - k % 3;
+        for (dem_index c = first; at >= 0 && at < s->n_own && c < first + 3; c++) keep[l->triangles[c]] = true;
+    }
+    return keep;
+}
+
+/* Slabs of as many nodes, of which one has some of both blocks. */
+static dem_slab cut_slab(const dem_lattice *whole, team t)
+{
+    const dem_index n = whole->n_nodes;
+    dem_slab s = dem_slab_empty();
+    dem_index n_rim = 0;
+    s.n_nodes = n;
+    s.n_triangles = whole->n_triangles;
+    s.first_node = n * t.rank / t.size;
+    s.n_own = n * (t.rank + 1) / t.size - s.first_node;
+    bool *keep = mark(whole, &s);
+    INSIST(dem_lattice_append(&s.lattice, whole) == DEM_OK && dem_lattice_select(&s.lattice, keep) == DEM_OK);
+    s.rim = malloc((size_t)n * sizeof *s.rim);
+    INSIST(s.rim != NULL);
+    for (dem_index i = 0; i < n; i++) {
+        if (i == s.first_node) s.first_own = n_rim;
+        if (keep[i] && (i < s.first_node || i >= s.first_node + s.n_own)) s.rim[n_rim++] = i;
+    }
+    free(keep);
+    return s;
+}
+
+/* ---- runs ---- */
+
 static bool is_empty(const dem_slab *s)
 {
     return s->n_own == 0 && s->n_nodes == 0 && s->lattice.n_nodes == 0 && s->lattice.x == NULL;
@@ -59,18 +111,21 @@ typedef struct seen {
     double *x, *v; /* [n][2] of the whole */
     dem_energy energy;
     dem_counts counts;
+    dem_surfaces surfaces;
 } seen;
 
 static seen run(const dem_model *model, const dem_options *options, dem_index n)
 {
     dem_simulation *s = NULL;
-    seen r = {.energy = {.struct_size = sizeof r.energy}, .counts = {.struct_size = sizeof r.counts}};
+    seen r = {.energy = {.struct_size = sizeof r.energy},
+              .counts = {.struct_size = sizeof r.counts},
+              .surfaces = {.struct_size = sizeof r.surfaces}};
     r.x = malloc(2 * (size_t)n * sizeof *r.x);
     r.v = malloc(2 * (size_t)n * sizeof *r.v);
     INSIST(r.x != NULL && r.v != NULL);
     INSIST(dem_simulation_create(&s, model, options) == DEM_OK && dem_simulation_advance(s, 4e-4) == DEM_OK);
     INSIST(dem_simulation_gather(s, r.x, r.v) == DEM_OK && dem_simulation_energy(s, &r.energy) == DEM_OK);
-    INSIST(dem_simulation_counts(s, &r.counts) == DEM_OK);
+    INSIST(dem_simulation_counts(s, &r.counts) == DEM_OK && dem_simulation_surfaces(s, &r.surfaces) == DEM_OK);
     dem_simulation_destroy(s);
     return r;
 }
@@ -80,21 +135,19 @@ static void compare(const seen *shared, const seen *alone, dem_index n, int rank
     const size_t size = 2 * (size_t)n * sizeof(double);
     INSIST(memcmp(&shared->energy, &alone->energy, sizeof alone->energy) == 0);
     INSIST(memcmp(&shared->counts, &alone->counts, sizeof alone->counts) == 0);
+    INSIST(memcmp(&shared->surfaces, &alone->surfaces, sizeof alone->surfaces) == 0);
     INSIST(rank != 0 || memcmp(shared->x, alone->x, size) == 0);
     INSIST(rank != 0 || memcmp(shared->v, alone->v, size) == 0);
     INSIST(alone->counts.events > 10);
 }
 
-static void check(dem_method method, const dem_shape *shape, team t)
+/* \param whole  is freed */
+static void check(dem_options options, dem_lattice whole, dem_slab slab, team t)
 {
     const double points[] = {-0.1, 0.0, 0.0, 2e-4, 0.1, 0.0};
     const dem_obstacle floor = {
         .struct_size = sizeof floor, .n_points = 3, .points = points, .restitution = 0.5, .friction = 0.3};
-    dem_options options = dem_options_default();
     dem_model *model = NULL;
-    dem_lattice whole = make_whole(shape);
-    dem_slab slab = make_slab(shape, t);
-    options.method = method;
     INSIST(dem_model_create(&model, &whole, &floor, 1) == DEM_OK);
     seen alone = run(model, &options, whole.n_nodes);
     dem_model_destroy(model);
@@ -103,6 +156,7 @@ static void check(dem_method method, const dem_shape *shape, team t)
     seen shared = run(model, &options, whole.n_nodes);
     dem_model_destroy(model);
     compare(&shared, &alone, whole.n_nodes, t.rank);
+    INSIST(options.bodies == DEM_BODIES_NONE || shared.surfaces.pushing > 0);
     dem_lattice_free(&whole);
     free(alone.x);
     free(alone.v);
@@ -110,25 +164,37 @@ static void check(dem_method method, const dem_shape *shape, team t)
     free(shared.v);
 }
 
+static void check_one(dem_method method, const dem_shape *shape, team t)
+{
+    dem_options options = dem_options_default();
+    options.method = method;
+    check(options, make_whole(shape), make_slab(shape, t), t);
+}
+
+static void check_two(dem_method method, team t)
+{
+    dem_options options = dem_options_default();
+    dem_lattice whole = make_blocks();
+    options.method = method;
+    options.bodies = DEM_BODIES_ALL;
+    options.contact_friction = 0.4;
+    check(options, whole, cut_slab(&whole, t), t);
+}
+
 /* On all ranks, whichever has it. */
-static void refuse(dem_slab *slab, const dem_options *options, dem_status status, const char *message)
+static void refuse(dem_slab *slab, dem_status status, const char *message)
 {
     dem_model *model = NULL;
-    INSIST(dem_model_create_mpi_slab(&model, slab, NULL, 0, options, MPI_COMM_WORLD) == status);
+    INSIST(dem_model_create_mpi_slab(&model, slab, NULL, 0, NULL, MPI_COMM_WORLD) == status);
     INSIST(strstr(dem_status_message(), message) != NULL && model == NULL);
     INSIST(slab == NULL || is_empty(slab));
 }
 
 static void refuse_all(team t)
 {
-    dem_options options = dem_options_default();
     dem_slab slab = make_slab(NULL, t);
-    refuse(t.rank == t.size - 1 ? NULL : &slab, NULL, DEM_ERROR_ARGUMENT, "slab is NULL");
+    refuse(t.rank == t.size - 1 ? NULL : &slab, DEM_ERROR_ARGUMENT, "slab is NULL");
     dem_slab_free(&slab);
-    slab = make_slab(NULL, t);
-    options.bodies = DEM_BODIES_ALL;
-    options.contact_thickness = spacing;
-    refuse(&slab, &options, DEM_ERROR_MODEL, "cannot touch");
     slab = make_slab(NULL, t);
     INSIST(dem_model_create_mpi_slab(NULL, &slab, NULL, 0, NULL, MPI_COMM_WORLD) == DEM_ERROR_ARGUMENT);
     INSIST(is_empty(&slab));
@@ -137,9 +203,11 @@ static void refuse_all(team t)
 int main(int argc, char **argv)
 {
     const team t = rank_test_begin(&argc, &argv);
-    check(DEM_METHOD_FEHLBERG45, NULL, t);
-    check(DEM_METHOD_VERLET, NULL, t);
-    check(DEM_METHOD_VERLET, &holed, t);
+    check_one(DEM_METHOD_FEHLBERG45, NULL, t);
+    check_one(DEM_METHOD_VERLET, NULL, t);
+    check_one(DEM_METHOD_VERLET, &holed, t);
+    check_two(DEM_METHOD_FEHLBERG45, t);
+    check_two(DEM_METHOD_VERLET, t);
     refuse_all(t);
     (void)MPI_Finalize();
     return 0;

@@ -2,13 +2,11 @@
 /* Ranks that make slabs of a lattice which nobody has run it with the bits of the whole in one process: free, and
  * falling on obstacles, with all events and the ledger; rectangles, and what is cut out of rows. */
 #include <stdlib.h>
-#include <string.h>
 
-#include "rank_runs.h"
+#include "slab_runs.h"
 #include "support.h"
 
 #include "harness/message.h"
-#include "model/shared_model.h"
 
 enum { FLOOR_POINTS = 61 };
 
@@ -86,8 +84,9 @@ static dem_lattice make_whole(const kind *k, double lift)
     return l;
 }
 
-static dem_slab make_slab(const scene *s, int part, int n_parts)
+static dem_slab make_slab(const void *of, int part, int n_parts)
 {
+    const scene *s = of;
     const kind *k = s->kind;
     dem_slab slab = dem_slab_empty();
     assert_ok(triangulate_part(&slab, k, part, n_parts));
@@ -120,109 +119,31 @@ static void open_scene(scene *s, const kind *k)
 
 /* ---- runs ---- */
 
-typedef struct shared_run {
-    const scene *scene;
-    dem_slab slabs[RANK_RUNS_MOST];      /* are taken over */
-    dem_index first[RANK_RUNS_MOST + 1]; /* own nodes, and behind the last */
-    rank_runs_outcome outcomes[RANK_RUNS_MOST];
-    bool is_cut[RANK_RUNS_MOST]; /* whether the domain is as one that is cut from the whole */
-} shared_run;
-
-static void make_slabs(shared_run *run, int n)
-{
-    for (int part = 0; part < n; part++) {
-        dem_slab *s = &run->slabs[part];
-        *s = make_slab(run->scene, part, n);
-        run->first[part] = s->first_node;
-        run->first[part + 1] = run->first[part] + s->n_own;
-    }
-}
-
-static bool is_same_list(const void *a, const void *b, dem_index n, size_t size)
-{
-    return memcmp(a, b, (size_t)n * size) == 0;
-}
-
-static bool is_same_domain(const dem_model *a, const dem_model *b)
-{
-    const domain *d = a->domain, *e = b->domain;
-    const dem_lattice *l = &a->lattice, *m = &b->lattice;
-    bool same = d->n_nodes == e->n_nodes && d->n_whole == e->n_whole && d->n_springs == e->n_springs &&
-                d->n_triangles == e->n_triangles && d->n_surface_nodes == e->n_surface_nodes &&
-                d->n_rings == e->n_rings && d->n_neighbours == e->n_neighbours && l->n_springs == m->n_springs &&
-                l->n_triangles == m->n_triangles && a->spacing == b->spacing && a->omega_max == b->omega_max &&
-                a->mass == b->mass;
-    same = same && is_same_list(d->number, e->number, d->n_nodes, sizeof *d->number) &&
-           is_same_list(d->spring, e->spring, l->n_springs, sizeof *d->spring) &&
-           is_same_list(d->triangle, e->triangle, l->n_triangles, sizeof *d->triangle) &&
-           is_same_list(d->is_own, e->is_own, d->n_nodes, 1) && is_same_list(d->is_ghost, e->is_ghost, d->n_nodes, 1) &&
-           is_same_list(d->is_common, e->is_common, d->n_nodes, 1) &&
-           is_same_list(d->is_outer, e->is_outer, d->n_nodes, 1);
-    for (int k = 0; same && k < d->n_neighbours; k++) {
-        const domain_neighbour *p = &d->neighbours[k], *q = &e->neighbours[k];
-        same = p->rank == q->rank && p->n_sent == q->n_sent && p->n_received == q->n_received &&
-               is_same_list(p->sent, q->sent, p->n_sent, sizeof *p->sent) &&
-               is_same_list(p->received, q->received, p->n_received, sizeof *p->received);
-    }
-    return same;
-}
-
 static ring_use use_of(const kind *k)
 {
     return k->rings > 0 ? (ring_use){k->rings, 1, {0, 1}, {0, 1}} : (ring_use){0};
 }
 
-/* The domain is cut from the whole by the same owners. */
-static bool is_as_cut(const ranks *r, const shared_run *run, const dem_model *model)
+static void open_runs(slab_runs_scene *out, const scene *s)
 {
-    const dem_model *whole = run->scene->run.model;
-    int32_t *owner = malloc((size_t)whole->lattice.n_nodes * sizeof *owner);
-    dem_model *cut = NULL;
-    for (int k = 0; k < r->size; k++)
-        for (dem_index i = run->first[k]; i < run->first[k + 1]; i++) owner[i] = (int32_t)k;
-    const domain_model_shares shares = {.owner = owner, .use = use_of(run->scene->kind)};
-    const bool same = domain_model_create(&cut, r, whole, &shares) == DEM_OK && is_same_domain(model, cut);
-    dem_model_destroy(cut);
-    free(owner);
-    return same;
-}
-
-static void run_rank(const ranks *r, void *context)
-{
-    shared_run *run = context;
-    rank_runs_outcome *o = &run->outcomes[r->rank];
-    const dem_private_whole of = {.slab = &run->slabs[r->rank],
-                                  .obstacles = &run->scene->floor,
-                                  .n_obstacles = run->scene->kind->has_floor ? 1 : 0,
-                                  .use = use_of(run->scene->kind)};
-    dem_model *model = NULL;
-    o->status = dem_private_share_model(&model, &of, r);
-    (void)strncpy(o->message, o->status != DEM_OK ? dem_status_message() : "", sizeof o->message - 1);
-    if (o->status == DEM_OK) run->is_cut[r->rank] = is_as_cut(r, run, model);
-    if (o->status == DEM_OK) rank_runs_go(model, NULL, NULL, o);
-    dem_model_destroy(model);
+    *out = (slab_runs_scene){.run = s->run,
+                             .obstacles = &s->floor,
+                             .n_obstacles = s->kind->has_floor ? 1 : 0,
+                             .use = use_of(s->kind),
+                             .make = make_slab,
+                             .of = s};
 }
 
 static void check(const kind *k)
 {
     scene s;
+    slab_runs_scene runs;
     open_scene(&s, k);
+    open_runs(&runs, &s);
     rank_runs_outcome whole = rank_runs_alone(&s.run);
     assert_string_equal(whole.message, "");
     assert_true(!k->has_floor || whole.n_notes > 10);
-    for (int n = 1; n <= 4; n++) {
-        shared_run run = {.scene = &s};
-        make_slabs(&run, n);
-        rank_runs_make_outcomes(&s.run, n, run.outcomes);
-        rank_threads_run(n, run_rank, &run);
-        for (int rank = 0; rank < n; rank++) {
-            const char *what = rank_runs_difference(&run.outcomes[rank], &whole, NULL);
-            if (what != NULL) fail_msg("rank %d of %d has another %s: '%s'", rank, n, what, run.outcomes[rank].message);
-            assert_true(run.is_cut[rank]);
-            assert_true(run.slabs[rank].n_own == 0 && run.slabs[rank].lattice.x == NULL);
-        }
-        rank_runs_free_outcomes(run.outcomes, n);
-    }
+    for (int n = 1; n <= 4; n++) slab_runs_assert_same(&runs, n, &whole);
     rank_runs_free_outcome(&whole);
     dem_model_destroy(s.run.model);
 }
@@ -329,6 +250,19 @@ static void stiffen(dem_slab *s)
     assert_ok(dem_lattice_stiffen(&s->lattice, DEM_GUIDE_NONE));
 }
 
+/* Of a slab of its own body, of which the number is too high. */
+static void leave_a_hole(dem_slab *s)
+{
+    dem_lattice *l = &s->lattice;
+    l->body = malloc((size_t)l->n_nodes * sizeof *l->body);
+    for (dem_index i = 0; i < l->n_nodes; i++) l->body[i] = 2;
+}
+
+static void loosen(dem_slab *s)
+{
+    s->lattice.n_springs = 0;
+}
+
 static void displace(dem_slab *s)
 {
     s->first_node++;
@@ -339,10 +273,11 @@ static void expect_refusal(void (*change)(dem_slab *s), dem_status status, const
 {
     const kind plain = {.method = DEM_METHOD_VERLET};
     const scene s = {.kind = &plain};
-    shared_run run = {.scene = &s};
-    make_slabs(&run, 2);
+    slab_runs_scene runs;
+    open_runs(&runs, &s);
+    slab_runs run = slab_runs_make(&runs, 2);
     change(&run.slabs[1]);
-    rank_threads_run(2, run_rank, &run);
+    slab_runs_go(&run, 2);
     for (int k = 0; k < 2; k++) {
         assert_int_equal(run.outcomes[k].status, status);
         if (!message_has_parts(run.outcomes[k].message, message))
@@ -356,5 +291,7 @@ TEST(slabs_refuse_what_they_cannot_be_of_on_all_ranks)
     expect_refusal(add_strength, DEM_ERROR_MODEL, "may break are not supported");
     expect_refusal(take_masses, DEM_ERROR_ARGUMENT, "no array of masses");
     expect_refusal(stiffen, DEM_ERROR_MODEL, "rigid bodies are not supported");
+    expect_refusal(leave_a_hole, DEM_ERROR_MODEL, "body 1 has no nodes, though there are bodies up to 2");
+    expect_refusal(loosen, DEM_ERROR_MODEL, "has no springs, though body 0 has other nodes");
     expect_refusal(displace, DEM_ERROR_ARGUMENT, "no part of");
 }

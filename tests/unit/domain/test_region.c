@@ -51,21 +51,47 @@ static void make_slabs(dem_slab *list, double height, int n)
 
 /* ---- ranks ---- */
 
+typedef struct recipe {
+    bool has_common; /* whether nodes are marked */
+    int common_rings, rings;
+} recipe;
+
 typedef struct scene {
     dem_slab slabs[MOST];
-    region_extent extent;
+    recipe extent;
     region found[MOST];
     dem_status status[MOST];
     char message[MOST][256];
 } scene;
 
+/* Whether a node of the whole is marked: those on the boundary, and some others. */
+static bool is_marked(const dem_lattice *l, dem_index i, dem_index number)
+{
+    return (l->flags[i] & DEM_NODE_CONTACT) != 0 || number % 17 == 3;
+}
+
+/* All of the rim is marked, which counts for nothing. */
+static unsigned char *make_marks(const dem_slab *s)
+{
+    const dem_lattice *l = &s->lattice;
+    unsigned char *marks = malloc((size_t)l->n_nodes);
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        const bool is_own = i >= s->first_own && i < s->first_own + s->n_own;
+        marks[i] = !is_own || is_marked(l, i, s->first_node + i - s->first_own);
+    }
+    return marks;
+}
+
 static void gather(const ranks *r, void *context)
 {
     scene *s = context;
+    const recipe *e = &s->extent;
+    CLEANUP(free_memory) unsigned char *marks = e->has_common ? make_marks(&s->slabs[r->rank]) : NULL;
+    const region_extent extent = {marks, e->common_rings, e->rings};
     slab_rows rows;
     s->found[r->rank] = (region){.lattice = dem_lattice_empty()};
     s->status[r->rank] = slab_rows_create(&rows, r, &s->slabs[r->rank]);
-    if (s->status[r->rank] == DEM_OK) s->status[r->rank] = region_create(&s->found[r->rank], &rows, &s->extent);
+    if (s->status[r->rank] == DEM_OK) s->status[r->rank] = region_create(&s->found[r->rank], &rows, &extent);
     (void)strncpy(s->message[r->rank], dem_status_message(), sizeof s->message[0] - 1);
     slab_rows_free(&rows);
 }
@@ -94,10 +120,10 @@ static void add_ring(const dem_lattice *l, bool *marked)
 }
 
 /* Own nodes and common ones, with their rings. */
-static void mark_region(const dem_lattice *l, const dem_slab *s, const region_extent *e, bool *marked)
+static void mark_region(const dem_lattice *l, const dem_slab *s, const recipe *e, bool *marked)
 {
     const dem_index begin = s->first_node;
-    for (dem_index i = 0; i < l->n_nodes; i++) marked[i] = e->has_common && (l->flags[i] & DEM_NODE_CONTACT) != 0;
+    for (dem_index i = 0; i < l->n_nodes; i++) marked[i] = e->has_common && is_marked(l, i, i);
     for (int ring = 0; ring < e->common_rings; ring++) add_ring(l, marked);
     for (dem_index i = begin; i < begin + s->n_own; i++) marked[i] = true;
     for (int ring = 0; ring < e->rings; ring++) add_ring(l, marked);
@@ -113,6 +139,13 @@ static void list_entire(lattice_cut *c, dem_index *list, lattice_items of, const
         if (entire) list[c->n[of]++] = k;
     }
     c->numbers[of] = list;
+}
+
+static void assert_marks(const region *g, bool has_common)
+{
+    assert_int_equal(g->is_common != NULL, has_common);
+    for (dem_index i = 0; has_common && i < g->lattice.n_nodes; i++)
+        assert_int_equal(g->is_common[i], is_marked(&g->lattice, i, g->number[LATTICE_NODES][i]));
 }
 
 static void assert_same(const region *g, const dem_lattice *expected, const lattice_cut *c)
@@ -147,11 +180,12 @@ static void check(const dem_lattice *whole, const scene *s, int rank)
     list_entire(&c, triangle, LATTICE_TRIANGLES, whole, marked);
     assert_ok(lattice_cut_create(&expected, whole, &c));
     assert_same(&s->found[rank], &expected, &c);
+    assert_marks(&s->found[rank], s->extent.has_common);
 }
 
 /* ---- tests ---- */
 
-static void compare(double height, region_extent extent)
+static void compare(double height, recipe extent)
 {
     CLEANUP(dem_lattice_free) dem_lattice whole = make_whole(height);
     for (int n = 1; n <= MOST; n++) {
@@ -168,20 +202,20 @@ static void compare(double height, region_extent extent)
 
 TEST(a_region_has_own_nodes_and_rings_about_them)
 {
-    for (int rings = 0; rings < 4; rings++) compare(0.3, (region_extent){.rings = rings});
+    for (int rings = 0; rings < 4; rings++) compare(0.3, (recipe){.rings = rings});
 }
 
-TEST(a_region_has_common_nodes_too)
+TEST(a_region_has_nodes_that_are_marked_on_any_rank)
 {
-    compare(0.3, (region_extent){.has_common = true});
-    compare(0.3, (region_extent){.has_common = true, .rings = 2});
-    compare(0.3, (region_extent){.has_common = true, .common_rings = 2, .rings = 1});
+    compare(0.3, (recipe){.has_common = true});
+    compare(0.3, (recipe){.has_common = true, .rings = 2});
+    compare(0.3, (recipe){.has_common = true, .common_rings = 2, .rings = 1});
 }
 
 /* Of 8 rows. */
 TEST(rings_go_over_several_slabs)
 {
-    compare(0.06, (region_extent){.has_common = true, .common_rings = 4, .rings = 5});
+    compare(0.06, (recipe){.has_common = true, .common_rings = 4, .rings = 5});
 }
 
 static void expect_refusal(scene *s, int n, const char *message)
