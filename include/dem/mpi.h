@@ -81,11 +81,14 @@ DEM_API dem_status dem_model_create_mpi_for(dem_model **out, const dem_lattice *
 
 /** The same of a lattice that no rank has: each has a slab of it (dem/slab.h), rank 0 the first one, and owns the nodes
  *  that are the slab's own. While it works a rank has besides what is near its slab, and what is near nodes that may
- *  touch obstacles. Springs and triangles are numbered slab by slab, each in the one that owns the lowest of its nodes,
- *  in the order that they have there. That is the order of lattices which dem/slab.h makes slabs of: runs have the bits
- *  of one process that has such a lattice.
- *  For one elastic body of triangles, connected or not, that does not break and does not touch itself: others are
- *  refused. Numbers of nodes, springs and triangles in messages about a slab are its own.
+ *  touch obstacles, or surfaces of bodies that touch. Springs and triangles are numbered slab by slab, each in the one
+ *  that owns the lowest of its nodes, in the order that they have there. That is the order of lattices which dem/slab.h
+ *  makes slabs of: runs have the bits of one process that has such a lattice.
+ *  For elastic bodies of triangles, connected or not, which may touch each other and themselves; rigid ones, and those
+ *  that may break, are refused. `body` has the numbers of the whole, of the rim too, and a slab may have parts of
+ *  several bodies. A slab that was made, and jittered, of a body alone becomes one of the whole with n_nodes and
+ *  n_triangles of the whole, and with the number of nodes before that body added to first_node and to each number of
+ *  the rim. Numbers of nodes, springs and triangles in messages about a slab are its own.
  *  \param slab     of this rank. It is taken over, so that nobody has it beside the model: it is empty afterwards,
  *                  whatever is returned
  *  \param options  as dem_model_create_mpi_for() has them; NULL: any without contact of bodies
