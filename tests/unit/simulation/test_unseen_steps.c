@@ -5,7 +5,6 @@
 
 #include <string.h>
 
-#include "forces/kernel_functions.h"
 #include "forces/step_wave.h"
 
 /* What the calls of the wave have come to. */
@@ -168,17 +167,10 @@ typedef struct outcome {
     struct tally waves;
 } outcome;
 
-/* The fastest kernel that steps by lattice rows. Not all do: those by multiplications take blocks. */
-static dem_kernel kernel_of_rows(void)
-{
-    const dem_kernel fastest = kernel_functions_fastest();
-    return kernel_functions_of(fastest)->lattice_step != NULL ? fastest : DEM_KERNEL_PORTABLE;
-}
-
 static dem_options options_of(const plan *p)
 {
     dem_options options = dem_options_default();
-    if (poissons_ratio < 0.4) options.kernel = kernel_of_rows();
+    if (poissons_ratio < 0.4) options.kernel = support_kernel_of_rows();
     options.method = DEM_METHOD_VERLET;
     options.threads = p->threads;
     options.thread_nodes = 1;
