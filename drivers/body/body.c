@@ -120,6 +120,7 @@ typedef struct builder {
     size_t number; /* from 1 */
     namelist_errors *errors;
     dem_lattice lattice;
+    bool is_strip; /* of a body that is not here */
     body_facts facts;
     body_start start;
 } builder;
@@ -306,7 +307,8 @@ static dem_status clear(builder *b, const dem_model *model)
 {
     double shift[2];
     bool reached;
-    if (!clearance_shift(shift, &reached, model, b->scene->gravity, schema_real(b->body, "clearance")))
+    const clearance_body body = {model, &b->lattice, b->is_strip};
+    if (!clearance_shift(shift, &reached, &body, b->scene->gravity, schema_real(b->body, "clearance")))
         return DEM_ERROR_MEMORY;
     if (!reached) {
         namelist_errors_add(
@@ -318,6 +320,7 @@ static dem_status clear(builder *b, const dem_model *model)
     }
     dem_lattice_move(&b->lattice, 0.0, shift);
     for (int c = 0; c < 2; c++) b->start.offset[c] += shift[c];
+    memcpy(b->start.shift, shift, sizeof shift);
     return DEM_OK;
 }
 
@@ -361,9 +364,10 @@ static dem_status face(builder *b)
     if (status == DEM_OK && cleared) status = clear(b, model);
     if (status == DEM_OK && cleared) status = check_place(b, "clearance");
     if (status == DEM_OK) measure_start(b, model);
-    if (status == DEM_OK && !clearance_find_pierced(&b->start.pierced, model, &b->lattice)) status = DEM_ERROR_MEMORY;
+    const clearance_body body = {model, &b->lattice, b->is_strip};
+    if (status == DEM_OK && !clearance_find_pierced(&b->start.pierced, &body)) status = DEM_ERROR_MEMORY;
     dem_model_destroy(model);
-    if (status == DEM_OK && !clearance_find_spike(&b->start.spike, &b->lattice, scene->obstacles, scene->n_obstacles))
+    if (status == DEM_OK && !clearance_find_spike(&b->start.spike, &body, scene->obstacles, scene->n_obstacles))
         status = DEM_ERROR_MEMORY;
     return status;
 }
@@ -529,6 +533,21 @@ bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const bo
     b.facts.further = copies_count(b.body) - 1;
     *out = b.lattice;
     *facts = b.facts;
+    *start = b.start;
+    return status != DEM_ERROR_MEMORY;
+}
+
+bool body_place_strip(dem_lattice *strip, body_start *start, const body_scene *scene, size_t k, namelist_errors *errors)
+{
+    builder b = begin(scene, k, errors);
+    const dem_material material = body_geometry_material(scene->groups, k);
+    b.lattice = *strip;
+    b.is_strip = true;
+    b.facts.geometry.spacing = schema_real(b.body, "spacing");
+    dem_status status = check_scales(&b, &material);
+    if (status == DEM_OK) status = report(&b, dem_lattice_assemble(&b.lattice, &material), "material");
+    if (status == DEM_OK) status = put(&b);
+    *strip = b.lattice;
     *start = b.start;
     return status != DEM_ERROR_MEMORY;
 }

@@ -40,7 +40,8 @@ typedef struct body_start {
     double rest_length; /* m, of its shortest spring; infinity without springs */
     clearance_spike spike;
     clearance_pierced pierced;
-    double angle, offset[2]; /* how its own coordinates were turned, radians, and shifted, m */
+    double angle, offset[2]; /* how its own coordinates were turned, radians, and shifted, m, */
+    double shift[2];         /* at last by so much, to its clearance */
 } body_start;
 
 /* What the log says of a body. */
@@ -67,6 +68,11 @@ bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const bo
  * appended to `errors`. Returns false only when memory runs out. */
 bool body_copy(dem_lattice *lattice, const body_facts *facts, body_start *start, const body_scene *scene, size_t k,
                namelist_errors *errors);
+
+/* Puts the strip of a body, as a triangulation, in the place that body k has by its keys, with springs of its material.
+ * A fault is appended to `errors`. Returns false only when memory runs out. */
+bool body_place_strip(dem_lattice *strip, body_start *start, const body_scene *scene, size_t k,
+                      namelist_errors *errors);
 
 /* Reports body k if it starts deeper in an obstacle, or an obstacle in it, than `penetration_tolerance`, m. Returns
  * false only when memory runs out. */

@@ -282,15 +282,22 @@ const schema_instance *body_geometry_user(const schema_deck *groups, size_t k, s
     return NULL;
 }
 
+dem_material body_geometry_material(const schema_deck *groups, size_t k)
+{
+    const schema_instance *body = schema_get(groups, "body", k);
+    dem_material m = material_of(groups, body);
+    if (body_geometry_has_squares(body)) m.springs = DEM_SPRINGS_INDEPENDENT; /* it may be one of triangles, too */
+    return m;
+}
+
 void body_geometry_materials(dem_material *out, const schema_deck *groups, size_t k)
 {
     const former f = {.groups = groups, .number = k + 1};
     size_t n = 1;
-    out[0] = material_of(groups, schema_get(groups, "body", k));
+    out[0] = body_geometry_material(groups, k);
     for (size_t i = 0; i < schema_count(groups, "inclusion"); i++)
         if (own(&f, "inclusion", i) != NULL) out[n++] = material_of(groups, own(&f, "inclusion", i));
-    /* The material may be one of triangles, too. */
-    for (size_t i = 0; i < n && body_geometry_has_squares(schema_get(groups, "body", k)); i++)
+    for (size_t i = 1; i < n && body_geometry_has_squares(schema_get(groups, "body", k)); i++)
         out[i].springs = DEM_SPRINGS_INDEPENDENT;
 }
 
@@ -455,14 +462,35 @@ char *body_geometry_file(const char *folder, const schema_instance *body)
     return path;
 }
 
-dem_status body_geometry_triangulate(dem_lattice *lattice, body_geometry *out, const schema_deck *groups, size_t k,
-                                     const char *folder, namelist_errors *errors)
+static former begin(const schema_deck *groups, size_t k, const char *folder, namelist_errors *errors)
 {
     former f = {
         .groups = groups, .body = schema_get(groups, "body", k), .number = k + 1, .folder = folder, .errors = errors};
     (void)snprintf(f.name, sizeof f.name, "body %zu", f.number);
     f.lattice = dem_lattice_empty();
     f.geometry.n_inclusions = count_own(&f, "inclusion");
+    return f;
+}
+
+dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const schema_deck *groups, size_t k, body_part part,
+                              namelist_errors *errors)
+{
+    former f = begin(groups, k, "", errors);
+    *slab = dem_slab_empty();
+    dem_status status = make_shape(&f);
+    f.shape.numbered = false;
+    if (status == DEM_OK) status = report(&f, dem_slab_shape(slab, &f.shape, part.number, part.n), f.body->place, "");
+    if (status == DEM_OK) status = weigh(&f);
+    if (status != DEM_OK) dem_slab_free(slab);
+    former_free(&f);
+    *out = f.geometry;
+    return status;
+}
+
+dem_status body_geometry_triangulate(dem_lattice *lattice, body_geometry *out, const schema_deck *groups, size_t k,
+                                     const char *folder, namelist_errors *errors)
+{
+    former f = begin(groups, k, folder, errors);
     dem_status status = DEM_OK;
     if (has_shape(f.body, "mesh")) {
         status = read_mesh(&f);

@@ -6,6 +6,7 @@
 
 #include <dem/dem.h>
 #include <dem/shape.h>
+#include <dem/slab.h>
 
 #include "schema.h"
 
@@ -29,6 +30,16 @@ typedef struct body_geometry {
 dem_status body_geometry_triangulate(dem_lattice *lattice, body_geometry *out, const schema_deck *groups, size_t k,
                                      const char *folder, namelist_errors *errors);
 
+/* One of the slabs in which a body is triangulated. */
+typedef struct body_part {
+    dem_index number, n; /* 0 <= number < n */
+} body_part;
+
+/* The same as body_geometry_triangulate() of a slab of body k, which is neither a mesh nor an image, has a stepped edge
+ * and no cracks, inclusions and jitter. Free with dem_slab_free(). */
+dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const schema_deck *groups, size_t k, body_part part,
+                              namelist_errors *errors);
+
 /* What a fault of an image's lattice may come from: which pixels are material; "" for other shapes. */
 const char *body_geometry_hint(const schema_instance *body);
 
@@ -42,7 +53,8 @@ dem_index *body_geometry_take_numbers(dem_lattice *lattice);
 /* The groups that name the materials of body k: itself, then its inclusions, i from 0. */
 const schema_instance *body_geometry_user(const schema_deck *groups, size_t k, size_t i);
 
-/* Materials of body k and of its inclusions, [1 + n_inclusions]. */
+/* The material of body k; and those of it and of its inclusions, [1 + n_inclusions]. */
+dem_material body_geometry_material(const schema_deck *groups, size_t k);
 void body_geometry_materials(dem_material *out, const schema_deck *groups, size_t k);
 
 /* Which of these each triangle of its lattice has: that of the last inclusion that its centre is in; whole cells of

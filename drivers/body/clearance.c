@@ -46,6 +46,7 @@ static const dem_obstacle *obstacle_of(const ground *g, dem_index k)
 /* Sides of a body: those of one triangle only. */
 typedef struct rim {
     const dem_lattice *lattice;
+    bool is_strip;
     side *sides;
     size_t n;
     double box[4]; /* around all nodes: lowest, highest x and y */
@@ -135,18 +136,25 @@ static side *list_sides(const dem_lattice *lattice, size_t n)
     return list;
 }
 
+/* Where a strip ends inside of the body it has sides that are none of the body. */
+static bool is_side(const rim *r, const side *at)
+{
+    const uint8_t *flags = r->lattice->flags;
+    return !r->is_strip || (flags[at->ends[0]] & flags[at->ends[1]] & DEM_NODE_CONTACT) != 0;
+}
+
 /* Returns false when memory runs out. */
-static bool find_rim(rim *out, const dem_lattice *lattice)
+static bool find_rim(rim *out, const dem_lattice *lattice, bool is_strip)
 {
     const size_t most = 3 * (size_t)lattice->n_triangles;
     side *list = list_sides(lattice, most);
-    *out = (rim){.lattice = lattice, .sides = list};
+    *out = (rim){.lattice = lattice, .is_strip = is_strip, .sides = list};
     if (list == NULL) return false;
     memcpy(out->box, no_box, sizeof no_box);
     for (dem_index i = 0; i < lattice->n_nodes; i++) include(out->box, start_of(lattice, i));
     for (size_t k = 0, next; k < most; k = next) {
         for (next = k + 1; next < most && by_ends(&list[k], &list[next]) == 0;) next++;
-        if (next == k + 1) list[out->n++] = list[k];
+        if (next == k + 1 && is_side(out, &list[k])) list[out->n++] = list[k];
     }
     return true;
 }
@@ -175,6 +183,23 @@ static candidate *list_points(const ground *g, const double shift[2], size_t *n)
     return list;
 }
 
+/* Whether a ray from x to the right crosses a side. */
+static bool crosses(const double x[2], const double a[2], const double b[2])
+{
+    if ((a[1] > x[1]) == (b[1] > x[1])) return false;
+    return (turn(a, b, x) > 0.0) == (b[1] > a[1]);
+}
+
+/* What is inside of all sides is in some triangle, whether it is here or not. */
+static void mark_enclosed(candidate *points, size_t n, const rim *r)
+{
+    for (size_t p = 0; p < n; p++)
+        for (size_t k = 0; k < r->n; k++)
+            if (crosses(points[p].spike.x, start_of(r->lattice, r->sides[k].ends[0]),
+                        start_of(r->lattice, r->sides[k].ends[1])))
+                points[p].inside = !points[p].inside;
+}
+
 static void mark_all(candidate *points, size_t n, const dem_lattice *lattice)
 {
     for (dem_index k = 0; k < lattice->n_triangles; k++) {
@@ -198,7 +223,10 @@ static bool find_deepest(clearance_spike *deepest, const rim *r, const ground *g
     candidate *points = list_points(g, shift, &n);
     *deepest = (clearance_spike){.depth = -reach};
     if (points == NULL) return false;
-    mark_all(points, n, r->lattice);
+    if (r->is_strip)
+        mark_enclosed(points, n, r);
+    else
+        mark_all(points, n, r->lattice);
     for (size_t k = 0; k < n; k++) {
         const double *x = points[k].spike.x;
         if (!points[k].inside && !is_near(r->box, x, reach)) continue;
@@ -211,12 +239,13 @@ static bool find_deepest(clearance_spike *deepest, const rim *r, const ground *g
     return true;
 }
 
-bool clearance_find_spike(clearance_spike *deepest, const dem_lattice *lattice, const dem_obstacle *list,
+bool clearance_find_spike(clearance_spike *deepest, const clearance_body *body, const dem_obstacle *list,
                           dem_index n_obstacles)
 {
     const ground g = {NULL, list, n_obstacles};
     rim r;
-    const bool good = find_rim(&r, lattice) && find_deepest(deepest, &r, &g, (const double[2]){0.0, 0.0}, 0.0);
+    const bool good =
+        find_rim(&r, body->lattice, body->is_strip) && find_deepest(deepest, &r, &g, (const double[2]){0.0, 0.0}, 0.0);
     free(r.sides);
     return good;
 }
@@ -281,12 +310,12 @@ static clearance_pierced find_pierced(const dem_model *model, const rim *r, cons
     return deepest;
 }
 
-bool clearance_find_pierced(clearance_pierced *deepest, const dem_model *model, const dem_lattice *lattice)
+bool clearance_find_pierced(clearance_pierced *deepest, const clearance_body *body)
 {
-    const ground g = {.model = model, .n = ask_sizes(model).n_obstacles};
+    const ground g = {.model = body->model, .n = ask_sizes(body->model).n_obstacles};
     rim r;
-    const bool good = find_rim(&r, lattice);
-    if (good) *deepest = find_pierced(model, &r, &g, (const double[2]){0.0, 0.0});
+    const bool good = find_rim(&r, body->lattice, body->is_strip);
+    if (good) *deepest = find_pierced(body->model, &r, &g, (const double[2]){0.0, 0.0});
     free(r.sides);
     return good;
 }
@@ -418,13 +447,15 @@ static double advance_sides(const path *p, double s)
     return way;
 }
 
-bool clearance_shift(double shift[2], bool *reached, const dem_model *model, const double gravity[2], double clearance)
+bool clearance_shift(double shift[2], bool *reached, const clearance_body *body, const double gravity[2],
+                     double clearance)
 {
+    const dem_model *model = body->model;
     const double g = hypot(gravity[0], gravity[1]);
     path p = {.model = model, .direction = {gravity[0] / g, gravity[1] / g}, .clearance = clearance};
     double s = 0.0;
     p.ground = (ground){.model = model, .n = ask_sizes(model).n_obstacles};
-    const bool good = find_rim(&p.rim, dem_model_lattice(model)) && retreat(&s, reached, &p);
+    const bool good = find_rim(&p.rim, dem_model_lattice(model), body->is_strip) && retreat(&s, reached, &p);
     if (good && *reached) {
         const double way = fmin(advance_nodes(&p, s), advance_sides(&p, s));
         for (int c = 0; c < 2; c++) shift[c] = (s + way) * p.direction[c];

@@ -7,12 +7,22 @@
 
 #include <dem/dem.h>
 
+/* A body in its place, and a model of it that knows the obstacles. */
+typedef struct clearance_body {
+    const dem_model *model;
+    const dem_lattice *lattice;
+    bool
+        is_strip; /* the lattice has but the triangles at the boundary of the body, whose nodes are those that may touch
+                     (slab_survey.h) */
+} clearance_body;
+
 /* The shift along `gravity` (not 0) after which the smallest gap between body and obstacles, where the motion starts,
  * is `clearance`: of the nodes that may touch, by dem_model_gap(), and of the obstacles' points to the sides between
  * two such nodes. A body nearer than that, inside an obstacle, or with one through a side goes back to the first place
  * free of it; from there, or from where it is, it goes on until it is as near as that for the first time. *reached is
  * false if no obstacle lies in its way. Returns false when memory runs out. */
-bool clearance_shift(double shift[2], bool *reached, const dem_model *model, const double gravity[2], double clearance);
+bool clearance_shift(double shift[2], bool *reached, const clearance_body *body, const double gravity[2],
+                     double clearance);
 
 /* A point of an obstacle in the material of a body. */
 typedef struct clearance_spike {
@@ -23,7 +33,7 @@ typedef struct clearance_spike {
 
 /* The point that lies deepest in the triangles that can move, where their motion starts. Only triangles are material:
  * springs alone let points pass. Returns false when memory runs out. */
-bool clearance_find_spike(clearance_spike *deepest, const dem_lattice *lattice, const dem_obstacle *list,
+bool clearance_find_spike(clearance_spike *deepest, const clearance_body *body, const dem_obstacle *list,
                           dem_index n_obstacles);
 
 /* A side of a body with an obstacle through it, which may end in a void of the body. */
@@ -35,6 +45,6 @@ typedef struct clearance_pierced {
 
 /* The side that an obstacle goes through deepest, of those between two nodes that may touch and can move, by the flags
  * of the model and at the places of the lattice. Returns false when memory runs out. */
-bool clearance_find_pierced(clearance_pierced *deepest, const dem_model *model, const dem_lattice *lattice);
+bool clearance_find_pierced(clearance_pierced *deepest, const clearance_body *body);
 
 #endif

@@ -62,7 +62,7 @@ static double gap_after(const scene *s, const double shift[2])
 static bool shift_to(double shift[2], const dem_model *model, const double gravity[2], double clearance)
 {
     bool reached;
-    assert_true(clearance_shift(shift, &reached, model, gravity, clearance));
+    assert_true(clearance_shift(shift, &reached, &(clearance_body){model, NULL, false}, gravity, clearance));
     return reached;
 }
 
@@ -175,7 +175,7 @@ TEST(the_side_that_an_obstacle_goes_through_is_found)
     const double needle[] = {0.4, -4.0, 0.45, 3.0, 0.5, -4.0};
     clearance_pierced found;
     CLEANUP(free_scene) scene s = make_scene(0.0, 0.0, needle, 3);
-    assert_true(clearance_find_pierced(&found, s.model, &s.lattice));
+    assert_true(clearance_find_pierced(&found, &(clearance_body){s.model, &s.lattice, false}));
     assert_int_equal(found.obstacle, 0);
     /* the second segment falls 7 on 0.05, and meets the side 0.45 + 0.05 * 3/7 from the left corner */
     assert_int_equal(found.point, 1);
@@ -183,10 +183,10 @@ TEST(the_side_that_an_obstacle_goes_through_is_found)
     assert_close(found.x[0], 0.5, 1e-14);
     assert_close(found.x[1], 0.0, 1e-14);
     dem_lattice_move(&s.lattice, 0.0, (double[2]){0.0, 3.0});
-    assert_true(clearance_find_pierced(&found, s.model, &s.lattice));
+    assert_true(clearance_find_pierced(&found, &(clearance_body){s.model, &s.lattice, false}));
     assert_close(found.depth, 0.0, 1e-14);
     dem_lattice_move(&s.lattice, 0.0, (double[2]){0.0, -0.25});
-    assert_true(clearance_find_pierced(&found, s.model, &s.lattice));
+    assert_true(clearance_find_pierced(&found, &(clearance_body){s.model, &s.lattice, false}));
     assert_close(found.depth, 0.25, 1e-14); /* the point is 0.25 above the side */
 }
 
@@ -196,7 +196,7 @@ static clearance_spike find_spike(const dem_lattice *lattice, const double *poin
     const dem_obstacle list[] = {{.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor},
                                  {.struct_size = sizeof(dem_obstacle), .n_points = n, .points = points}};
     clearance_spike spike;
-    assert_true(clearance_find_spike(&spike, lattice, list, 2));
+    assert_true(clearance_find_spike(&spike, &(clearance_body){NULL, lattice, false}, list, 2));
     return spike;
 }
 

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Own nodes have all of their triangles, and of the others a slab says which are on the boundary. A side with both ends
+ * there has all of its triangles in the strip, so that strip and body have the same sides between such nodes. */
+#include "slab_survey.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/grow.h"
+#include "base/union_find.h"
+
+static bool is_own(const dem_slab *slab, dem_index i)
+{
+    return i >= slab->first_own && i < slab->first_own + slab->n_own;
+}
+
+/* Of the rim's nodes those above the own ones come behind those below. */
+static dem_index rim_of(const dem_slab *slab, dem_index i)
+{
+    return i < slab->first_own ? i : i - slab->n_own;
+}
+
+static dem_index number_of(const dem_slab *slab, dem_index i)
+{
+    return is_own(slab, i) ? slab->first_node + i - slab->first_own : slab->rim[rim_of(slab, i)];
+}
+
+/* ---- the strip ---- */
+
+static bool add_triangle(slab_survey *s, const dem_slab *slab, const dem_index *corner, const dem_index *rims)
+{
+    const dem_lattice *l = &slab->lattice;
+    if (rims[corner[0]] == 0 && rims[corner[1]] == 0 && rims[corner[2]] == 0) return true;
+    if (!grow_array((void **)&s->corners, &s->corner_room, s->n_corners + 3, sizeof *s->corners)) return false;
+    for (int c = 0; c < 3; c++) {
+        const dem_index i = corner[c];
+        s->corners[s->n_corners++] = (slab_corner){.number = number_of(slab, i),
+                                                   .x = {l->x[2 * i], l->x[2 * i + 1]},
+                                                   .flags = rims[i] > 0 ? DEM_NODE_CONTACT : 0};
+    }
+    return true;
+}
+
+/* Edges of the boundary at each node, of which a rim's node has some or none. */
+static dem_index *find_rims(slab_survey *s, const dem_slab *slab)
+{
+    const dem_lattice *l = &slab->lattice;
+    dem_index *rims = calloc((size_t)l->n_nodes + 1, sizeof *rims);
+    if (rims == NULL || dem_lattice_rims(l, rims) != DEM_OK) {
+        free(rims);
+        return NULL;
+    }
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        if (is_own(slab, i))
+            s->has_hinge = s->has_hinge || rims[i] > 2;
+        else
+            rims[i] = slab->rim_boundary[rim_of(slab, i)];
+    }
+    return rims;
+}
+
+bool slab_survey_add_strip(slab_survey *s, const dem_slab *slab)
+{
+    const dem_lattice *l = &slab->lattice;
+    dem_index *rims = find_rims(s, slab);
+    bool good = rims != NULL;
+    for (dem_index t = 0; t < l->n_triangles && good; t++)
+        if (slab->first_triangle + t >= s->next_triangle) good = add_triangle(s, slab, l->triangles + 3 * t, rims);
+    s->next_triangle = slab->first_triangle + l->n_triangles;
+    free(rims);
+    return good;
+}
+
+static int by_number(const void *a, const void *b)
+{
+    const slab_corner *p = a, *q = b;
+    return (p->number > q->number) - (p->number < q->number);
+}
+
+/* \return how many different ones there are, now the first in the list */
+static dem_index keep_one_each(slab_corner *list, dem_index n)
+{
+    dem_index kept = 0;
+    qsort(list, (size_t)n, sizeof *list, by_number);
+    for (dem_index k = 0; k < n; k++)
+        if (kept == 0 || list[k].number != list[kept - 1].number) list[kept++] = list[k];
+    return kept;
+}
+
+static bool make_room(dem_lattice *out, dem_index n_nodes, dem_index n_triangles)
+{
+    out->n_nodes = n_nodes;
+    out->n_triangles = n_triangles;
+    out->x = calloc(2 * (size_t)n_nodes + 1, sizeof *out->x);
+    out->flags = calloc((size_t)n_nodes + 1, sizeof *out->flags);
+    out->triangles = calloc(3 * (size_t)n_triangles + 1, sizeof *out->triangles);
+    if (out->x != NULL && out->flags != NULL && out->triangles != NULL) return true;
+    dem_lattice_free(out);
+    return false;
+}
+
+static bool fill_strip(dem_lattice *out, const slab_survey *s, slab_corner *nodes)
+{
+    memcpy(nodes, s->corners, (size_t)s->n_corners * sizeof *nodes);
+    const dem_index n = keep_one_each(nodes, s->n_corners);
+    if (!make_room(out, n, s->n_corners / 3)) return false;
+    for (dem_index i = 0; i < n; i++) {
+        memcpy(out->x + 2 * i, nodes[i].x, sizeof nodes[i].x);
+        out->flags[i] = nodes[i].flags;
+    }
+    for (dem_index k = 0; k < s->n_corners; k++) {
+        const slab_corner *found = bsearch(&s->corners[k], nodes, (size_t)n, sizeof *nodes, by_number);
+        out->triangles[k] = found - nodes;
+    }
+    return true;
+}
+
+bool slab_survey_take_strip(dem_lattice *out, slab_survey *s)
+{
+    slab_corner *nodes = calloc((size_t)s->n_corners + 1, sizeof *nodes);
+    *out = dem_lattice_empty();
+    const bool good = nodes != NULL && fill_strip(out, s, nodes);
+    free(nodes);
+    return good;
+}
+
+/* ---- parts ---- */
+
+/* The parts of a slab come behind those that there are. */
+static bool append_parts(slab_survey *s, dem_index n)
+{
+    if (!grow_array((void **)&s->parent, &s->part_room, s->n_parts + n, sizeof *s->parent)) return false;
+    for (dem_index p = s->n_parts; p < s->n_parts + n; p++) s->parent[p] = p;
+    s->n_parts += n;
+    return true;
+}
+
+/* Both lists are ascending. */
+static void join(slab_survey *s, const dem_index *number, const dem_index *part, dem_index n)
+{
+    dem_index k = 0;
+    for (dem_index i = 0; i < n; i++) {
+        while (k < s->n_last && s->last_number[k] < number[i]) k++;
+        if (k < s->n_last && s->last_number[k] == number[i]) union_find_unite(s->parent, s->last_part[k], part[i]);
+    }
+}
+
+bool slab_survey_add_parts(slab_survey *s, const dem_slab *slab)
+{
+    const size_t room = (size_t)slab->lattice.n_nodes + 1;
+    const dem_index first = s->n_parts;
+    dem_index *number = calloc(room, sizeof *number), *part = calloc(room, sizeof *part), n_parts;
+    const bool good = number != NULL && part != NULL && dem_lattice_parts(&slab->lattice, &n_parts, part) == DEM_OK &&
+                      append_parts(s, n_parts);
+    if (!good) {
+        free(number);
+        free(part);
+        return false;
+    }
+    for (dem_index i = 0; i < slab->lattice.n_nodes; i++) {
+        number[i] = number_of(slab, i);
+        part[i] += first;
+    }
+    join(s, number, part, slab->lattice.n_nodes);
+    free(s->last_number);
+    free(s->last_part);
+    s->last_number = number;
+    s->last_part = part;
+    s->n_last = slab->lattice.n_nodes;
+    return true;
+}
+
+bool slab_survey_is_one(const slab_survey *s)
+{
+    for (dem_index p = 0; p < s->n_parts; p++)
+        if (union_find_root(s->parent, p) != 0) return false;
+    return !s->has_hinge;
+}
+
+void slab_survey_free(slab_survey *s)
+{
+    free(s->corners);
+    free(s->parent);
+    free(s->last_number);
+    free(s->last_part);
+    *s = (slab_survey){0};
+}
