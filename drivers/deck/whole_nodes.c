@@ -1,46 +1,74 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Edges of the boundary are found from the triangles, not from the flags of contact: nodes that are held may not touch,
- * and yet the peak of a plate with lines of symmetry is at one of them. */
+ * and yet the peak of a plate with lines of symmetry is at one of them. Without memory for an array that ranks have the
+ * log goes without what is asked for. */
 #include "whole_nodes.h"
 
+#include <stddef.h>
+
 #include "ask.h"
+#include "lattice/lattice_source.h"
+
+/* Items of n nodes or springs, which are left as they are without memory. */
+static void pick(const dem_model *model, size_t member, const dem_index *list, dem_index n, void *out)
+{
+    const lattice_source from = dem_private_lattice_source(model);
+    (void)dem_private_lattice_pick(&from, member, list, n, out);
+}
+
+/* \return NULL without memory */
+static const void *open_array(source_array *a, const dem_model *model, size_t member)
+{
+    const lattice_source from = dem_private_lattice_source(model);
+    return dem_private_lattice_open(a, &from, member) == DEM_OK ? a->items : NULL;
+}
 
 dem_index whole_nodes_body(const dem_model *model, dem_index node)
 {
-    return dem_model_lattice(model)->body[node];
+    int32_t body = 0;
+    pick(model, offsetof(dem_lattice, body), &node, 1, &body);
+    return body;
 }
 
 void whole_nodes_place(double x[2], const dem_model *model, dem_index node)
 {
-    const double *places = dem_model_lattice(model)->x;
-    for (int c = 0; c < 2; c++) x[c] = places[2 * node + c];
+    x[0] = x[1] = 0.0;
+    pick(model, offsetof(dem_lattice, x), &node, 1, x);
 }
 
 whole_spring whole_nodes_spring(const dem_model *model, dem_index spring)
 {
-    const dem_lattice *l = dem_model_lattice(model);
-    const double *a = l->x + 2 * l->ends[2 * spring], *b = l->x + 2 * l->ends[2 * spring + 1];
-    return (whole_spring){{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])}, l->stiffness[spring]};
+    dem_index ends[2] = {0, 0};
+    double x[4] = {0.0, 0.0, 0.0, 0.0};
+    whole_spring s = {{0.0, 0.0}, 0.0};
+    pick(model, offsetof(dem_lattice, ends), &spring, 1, ends);
+    pick(model, offsetof(dem_lattice, x), ends, 2, x);
+    pick(model, offsetof(dem_lattice, stiffness), &spring, 1, &s.stiffness);
+    for (int c = 0; c < 2; c++) s.middle[c] = 0.5 * (x[c] + x[2 + c]);
+    return s;
 }
 
 /* The other ends of the sides at a node, one for each triangle that has the side. \return their number */
-static int find_ends(dem_index ends[WHOLE_NODES_SIDES], const dem_lattice *l, dem_index node)
+static int find_ends(dem_index ends[WHOLE_NODES_SIDES], const dem_model *model, dem_index node)
 {
+    const dem_index n_triangles = dem_model_lattice(model)->n_triangles;
+    source_array a;
+    const dem_index *corners = open_array(&a, model, offsetof(dem_lattice, triangles));
     int n = 0;
-    for (dem_index t = 0; t < l->n_triangles; t++)
-        for (int k = 0; k < 3; k++) {
-            const dem_index *corner = l->triangles + 3 * t;
-            if (corner[k] != node || n + 2 > WHOLE_NODES_SIDES) continue;
-            ends[n++] = corner[(k + 1) % 3];
-            ends[n++] = corner[(k + 2) % 3];
-        }
+    for (dem_index k = 0; k < 3 * n_triangles && corners != NULL; k++) {
+        const dem_index *corner = corners + k / 3 * 3;
+        if (corners[k] != node || n + 2 > WHOLE_NODES_SIDES) continue;
+        ends[n++] = corner[(k + 1) % 3];
+        ends[n++] = corner[(k + 2) % 3];
+    }
+    dem_private_lattice_close(&a);
     return n;
 }
 
 int whole_nodes_rim(double ends[WHOLE_NODES_SIDES][2], const dem_model *model, dem_index node)
 {
     dem_index all[WHOLE_NODES_SIDES];
-    const int n = find_ends(all, dem_model_lattice(model), node);
+    const int n = find_ends(all, model, node);
     int found = 0;
     for (int k = 0; k < n; k++) {
         int shared = 0;
@@ -52,28 +80,41 @@ int whole_nodes_rim(double ends[WHOLE_NODES_SIDES][2], const dem_model *model, d
 
 bool whole_nodes_any_ahead(const dem_model *model, dem_index node, const double along[2], double slack)
 {
-    const dem_lattice *l = dem_model_lattice(model);
-    const double *x = l->x + 2 * node;
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        const double *y = l->x + 2 * i;
-        if (l->body[i] == l->body[node] && (y[0] - x[0]) * along[0] + (y[1] - x[1]) * along[1] > slack) return true;
+    const dem_index n = dem_model_lattice(model)->n_nodes;
+    source_array places, bodies;
+    const double *x = open_array(&places, model, offsetof(dem_lattice, x));
+    const int32_t *body = open_array(&bodies, model, offsetof(dem_lattice, body));
+    bool found = false;
+    for (dem_index i = 0; i < n && x != NULL && body != NULL && !found; i++)
+        found = body[i] == body[node] &&
+                (x[2 * i] - x[2 * node]) * along[0] + (x[2 * i + 1] - x[2 * node + 1]) * along[1] > slack;
+    dem_private_lattice_close(&places);
+    dem_private_lattice_close(&bodies);
+    return found;
+}
+
+static double spin_of(const double *mass, dem_index n, const dem_state *state, const double v[2])
+{
+    double all = 0.0, centre[2] = {0.0, 0.0}, angular = 0.0, inertia = 0.0;
+    for (dem_index i = 0; i < n; i++) {
+        all += mass[i];
+        for (int c = 0; c < 2; c++) centre[c] += mass[i] * state->x[2 * i + c];
     }
-    return false;
+    for (dem_index i = 0; i < n; i++) {
+        const double x = state->x[2 * i] - centre[0] / all, y = state->x[2 * i + 1] - centre[1] / all;
+        angular += mass[i] * (x * (state->v[2 * i + 1] - v[1]) - y * (state->v[2 * i] - v[0]));
+        inertia += mass[i] * (x * x + y * y);
+    }
+    return inertia > 0.0 ? angular / inertia : 0.0;
 }
 
 double whole_nodes_spin(const dem_simulation *simulation, const double v[2])
 {
-    const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
+    const dem_model *model = dem_simulation_model(simulation);
     const dem_state state = ask_state(simulation);
-    double mass = 0.0, centre[2] = {0.0, 0.0}, angular = 0.0, inertia = 0.0;
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        mass += l->mass[i];
-        for (int c = 0; c < 2; c++) centre[c] += l->mass[i] * state.x[2 * i + c];
-    }
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        const double x = state.x[2 * i] - centre[0] / mass, y = state.x[2 * i + 1] - centre[1] / mass;
-        angular += l->mass[i] * (x * (state.v[2 * i + 1] - v[1]) - y * (state.v[2 * i] - v[0]));
-        inertia += l->mass[i] * (x * x + y * y);
-    }
-    return inertia > 0.0 ? angular / inertia : 0.0;
+    source_array a;
+    const double *mass = open_array(&a, model, offsetof(dem_lattice, mass));
+    const double spin = mass != NULL ? spin_of(mass, dem_model_lattice(model)->n_nodes, &state, v) : 0.0;
+    dem_private_lattice_close(&a);
+    return spin;
 }

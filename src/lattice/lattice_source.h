@@ -13,9 +13,9 @@ typedef struct lattice_source {
     const dem_model *whole;     /* of which ranks have the arrays; NULL: all are here */
 } lattice_source;
 
-/** Of the lattice of a model. Defined in model/whole_of_parts.c, as the next one is: those who write files see no more
- *  of a model than its public headers. */
-lattice_source lattice_source_of(const dem_model *model);
+/** Of the lattice of a model. Defined in model/whole_of_parts.c, as the next ones are: those who write files see no
+ *  more of a model than its public headers. They are exported for dem_batch; no other program may call them. */
+DEM_API lattice_source dem_private_lattice_source(const dem_model *model);
 
 typedef struct source_array {
     const void *items; /* NULL: the lattice has no such array */
@@ -26,13 +26,13 @@ typedef struct source_array {
  *  failure, too.
  *  \param member  offset of the array's pointer in a dem_lattice
  *  \return DEM_ERROR_MEMORY */
-dem_status lattice_source_open(source_array *out, const lattice_source *from, size_t member);
-void lattice_source_close(source_array *a);
+DEM_API dem_status dem_private_lattice_open(source_array *out, const lattice_source *from, size_t member);
+DEM_API void dem_private_lattice_close(source_array *a);
 
 /** Gets the items of n nodes, springs or triangles from an array that there is.
  *  \param list      [n] their numbers
  *  \param[out] out  [n] items */
-dem_status lattice_source_pick(const lattice_source *from, size_t member, const dem_index *list, dem_index n,
-                               void *out);
+DEM_API dem_status dem_private_lattice_pick(const lattice_source *from, size_t member, const dem_index *list,
+                                            dem_index n, void *out);
 
 #endif

@@ -101,7 +101,7 @@ dem_status whole_of_parts_gather(const dem_model *part, int array, void *whole)
     return gather_rows(part->ranks, &items, a->size, lattice_array_of(&part->lattice, a), whole);
 }
 
-lattice_source lattice_source_of(const dem_model *model)
+lattice_source dem_private_lattice_source(const dem_model *model)
 {
     return (lattice_source){.lattice = &model->lattice, .whole = model->part != NULL ? model : NULL};
 }
@@ -113,7 +113,7 @@ static int find_array(size_t member)
     return k;
 }
 
-dem_status lattice_source_open(source_array *out, const lattice_source *from, size_t member)
+dem_status dem_private_lattice_open(source_array *out, const lattice_source *from, size_t member)
 {
     const int k = find_array(member);
     const lattice_array *a = &lattice_arrays[k];
@@ -126,19 +126,20 @@ dem_status lattice_source_open(source_array *out, const lattice_source *from, si
     return whole->ask_array(whole, k, out->gathered);
 }
 
-void lattice_source_close(source_array *a)
+void dem_private_lattice_close(source_array *a)
 {
     free(a->gathered);
     *a = (source_array){0};
 }
 
-dem_status lattice_source_pick(const lattice_source *from, size_t member, const dem_index *list, dem_index n, void *out)
+dem_status dem_private_lattice_pick(const lattice_source *from, size_t member, const dem_index *list, dem_index n,
+                                    void *out)
 {
     const size_t size = lattice_arrays[find_array(member)].size;
     source_array a;
-    const dem_status status = lattice_source_open(&a, from, member);
+    const dem_status status = dem_private_lattice_open(&a, from, member);
     for (dem_index k = 0; k < n && status == DEM_OK; k++)
         memcpy((char *)out + (size_t)k * size, (const char *)a.items + (size_t)list[k] * size, size);
-    lattice_source_close(&a);
+    dem_private_lattice_close(&a);
     return status;
 }

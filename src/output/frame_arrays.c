@@ -51,11 +51,11 @@ static dem_status fill_points(const frames *f, const view *v)
 /* From the rest position, which need not be where the motion started. */
 static dem_status fill_displacement(const frames *f, const view *v)
 {
-    const lattice_source lattice = lattice_source_of(dem_simulation_model(v->simulation));
+    const lattice_source lattice = dem_private_lattice_source(dem_simulation_model(v->simulation));
     source_array x;
-    const dem_status status = lattice_source_open(&x, &lattice, offsetof(dem_lattice, x));
+    const dem_status status = dem_private_lattice_open(&x, &lattice, offsetof(dem_lattice, x));
     if (status == DEM_OK) spread(f->scratch, f->n_nodes, v->state.x, x.items);
-    lattice_source_close(&x);
+    dem_private_lattice_close(&x);
     return status;
 }
 

@@ -145,9 +145,9 @@ static dem_status write_nodes(const frames *f, const hdf5_file *file, const latt
     const hdf5_rows rows = {GRID "PointData/body", HDF5_I32, 1, {0}, 0, f->deflate};
     source_array body;
     TRY(write_numbers(f, file));
-    dem_status status = lattice_source_open(&body, lattice, offsetof(dem_lattice, body));
+    dem_status status = dem_private_lattice_open(&body, lattice, offsetof(dem_lattice, body));
     if (status == DEM_OK) status = hdf5_write(file, rows, (hsize_t)f->n_nodes, body.items);
-    lattice_source_close(&body);
+    dem_private_lattice_close(&body);
     return status;
 }
 
@@ -179,10 +179,10 @@ static dem_status write_grid(const frames *f, const hdf5_file *file, grid g, con
                              size_t member)
 {
     source_array corners;
-    dem_status status = lattice_source_open(&corners, lattice, member);
+    dem_status status = dem_private_lattice_open(&corners, lattice, member);
     g.corners = corners.items;
     if (status == DEM_OK) status = vtk_grid_write(file, &g, f->deflate);
-    lattice_source_close(&corners);
+    dem_private_lattice_close(&corners);
     return status;
 }
 

@@ -399,9 +399,9 @@ static dem_status write_member(const hdf5_file *file, const struct written *w, c
     const dem_lattice *l = from->lattice;
     const dem_index counts[] = {[NODES] = l->n_nodes, [SPRINGS] = l->n_springs, [TRIANGLES] = l->n_triangles};
     source_array a;
-    dem_status status = lattice_source_open(&a, from, w->member);
+    dem_status status = dem_private_lattice_open(&a, from, w->member);
     if (status == DEM_OK) status = write_array(file, w->array, deflate, counts[datasets[w->array].of], a.items);
-    lattice_source_close(&a);
+    dem_private_lattice_close(&a);
     return status;
 }
 
@@ -410,9 +410,9 @@ dem_status lattice_file_write(const hdf5_file *file, const lattice_source *from,
 {
     source_array flags;
     for (size_t k = 0; k < sizeof written / sizeof *written; k++) TRY(write_member(file, &written[k], from, deflate));
-    dem_status status = lattice_source_open(&flags, from, offsetof(dem_lattice, flags));
+    dem_status status = dem_private_lattice_open(&flags, from, offsetof(dem_lattice, flags));
     if (status == DEM_OK && flags.items != NULL)
         status = write_flags(file, flags.items, from->lattice->n_nodes, deflate);
-    lattice_source_close(&flags);
+    dem_private_lattice_close(&flags);
     return status;
 }

@@ -65,7 +65,7 @@ static dem_status write_node_list(const hdf5_file *file, const peaks_report *r, 
     const dem_index n = dem_peaks_most_stressed_nodes(r->peaks, r->most, list);
     const dem_node_peak *peaks = dem_peaks_nodes(r->peaks);
     TRY(write_numbers(file, "/most_stressed/nodes/node", n, list));
-    TRY(lattice_source_pick(&r->lattice, offsetof(dem_lattice, x), list, n, column));
+    TRY(dem_private_lattice_pick(&r->lattice, offsetof(dem_lattice, x), list, n, column));
     TRY(write_column(file, "/most_stressed/nodes/x", n, 2, column));
     for (dem_index k = 0; k < n; k++) column[k] = peaks[list[k]].t;
     TRY(write_column(file, "/most_stressed/nodes/t", n, 1, column));
@@ -81,8 +81,8 @@ static dem_status find_middles(const peaks_report *r, const dem_index *list, dem
     dem_index *ends = malloc(2 * (size_t)(n + 1) * sizeof *ends);
     double *x = malloc(4 * (size_t)(n + 1) * sizeof *x);
     dem_status status = ends != NULL && x != NULL ? DEM_OK : status_fail(DEM_ERROR_MEMORY, "out of memory");
-    if (status == DEM_OK) status = lattice_source_pick(&r->lattice, offsetof(dem_lattice, ends), list, n, ends);
-    if (status == DEM_OK) status = lattice_source_pick(&r->lattice, offsetof(dem_lattice, x), ends, 2 * n, x);
+    if (status == DEM_OK) status = dem_private_lattice_pick(&r->lattice, offsetof(dem_lattice, ends), list, n, ends);
+    if (status == DEM_OK) status = dem_private_lattice_pick(&r->lattice, offsetof(dem_lattice, x), ends, 2 * n, x);
     for (dem_index k = 0; k < 2 * n && status == DEM_OK; k++)
         middle[k] = 0.5 * (x[4 * (k / 2) + k % 2] + x[4 * (k / 2) + 2 + k % 2]);
     free(ends);
@@ -94,7 +94,7 @@ static dem_status find_middles(const peaks_report *r, const dem_index *list, dem
 static dem_status find_forces(const peaks_report *r, const dem_index *list, dem_index n, double *force)
 {
     const dem_spring_peak *peaks = dem_peaks_springs(r->peaks);
-    TRY(lattice_source_pick(&r->lattice, offsetof(dem_lattice, stiffness), list, n, force));
+    TRY(dem_private_lattice_pick(&r->lattice, offsetof(dem_lattice, stiffness), list, n, force));
     for (dem_index k = 0; k < n; k++) force[k] = peaks[list[k]].strain * force[k];
     return DEM_OK;
 }

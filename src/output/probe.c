@@ -104,7 +104,7 @@ static double distance(const double *x, dem_index i, dem_index j)
 static dem_status measure_gauge(probe *p, const lattice_source *lattice)
 {
     double x[4];
-    TRY(lattice_source_pick(lattice, offsetof(dem_lattice, x), p->what.number, 2, x));
+    TRY(dem_private_lattice_pick(lattice, offsetof(dem_lattice, x), p->what.number, 2, x));
     p->initial = distance(x, 0, 1);
     CHECK(p->initial > 0.0, DEM_ERROR_ARGUMENT, "probe %s: a gauge from node %lld to node %lld has no length",
           p->what.name, (long long)p->what.number[0], (long long)p->what.number[1]);
@@ -113,8 +113,8 @@ static dem_status measure_gauge(probe *p, const lattice_source *lattice)
 
 static dem_status find_spring(probe *p, const lattice_source *lattice)
 {
-    TRY(lattice_source_pick(lattice, offsetof(dem_lattice, ends), p->what.number, 1, p->ends));
-    return lattice_source_pick(lattice, offsetof(dem_lattice, rest_length), p->what.number, 1, &p->initial);
+    TRY(dem_private_lattice_pick(lattice, offsetof(dem_lattice, ends), p->what.number, 1, p->ends));
+    return dem_private_lattice_pick(lattice, offsetof(dem_lattice, rest_length), p->what.number, 1, &p->initial);
 }
 
 static dem_status prepare(probe *p, const lattice_source *lattice)

@@ -63,7 +63,7 @@ dem_status trajectory_rows_init(trajectory_rows *out, const dem_simulation *simu
                                 const dem_trajectory_options *options)
 {
     out->model = dem_simulation_model(simulation);
-    out->lattice = lattice_source_of(out->model);
+    out->lattice = dem_private_lattice_source(out->model);
     out->options = *options;
     /* Events and breaks count as kinds even if they are not wanted: their tables then have no columns. */
     out->n_kinds = ROWS_PROBES + (int)options->n_probes;

@@ -16,6 +16,7 @@
 #include "contact/obstacle_load.h"
 #include "domain/gather.h"
 #include "forces/diagnostics.h"
+#include "lattice/lattice_source.h"
 #include "model/crack_energy.h"
 #include "model/fragments.h"
 #include "model/node_stress.h"
@@ -367,6 +368,22 @@ dem_status dem_simulation_fragments(const dem_simulation *s, dem_index *n_fragme
     return DEM_OK;
 }
 
+/* Of a whole of which ranks have the arrays two are gathered: its elements are all whole. */
+static dem_status measure_fragments(const dem_simulation *s, const element_state *elements, dem_fracture *out)
+{
+    const lattice_source from = dem_private_lattice_source(s->model);
+    dem_lattice l = s->model->lattice;
+    source_array ends, mass = {0};
+    dem_status status = dem_private_lattice_open(&ends, &from, offsetof(dem_lattice, ends));
+    if (status == DEM_OK) status = dem_private_lattice_open(&mass, &from, offsetof(dem_lattice, mass));
+    l.ends = (dem_index *)(uintptr_t)ends.items;
+    l.mass = (double *)(uintptr_t)mass.items;
+    if (status == DEM_OK) status = fragments_measure(&l, elements, out);
+    dem_private_lattice_close(&ends);
+    dem_private_lattice_close(&mass);
+    return status;
+}
+
 dem_status dem_simulation_fracture(const dem_simulation *s, dem_fracture *out)
 {
     const element_state *elements;
@@ -375,7 +392,7 @@ dem_status dem_simulation_fracture(const dem_simulation *s, dem_fracture *out)
     TRY(find_elements(s, &elements));
     const dem_simulation *part = s->leads != NULL ? led_run_part(s->leads) : s;
     const contact_burials *buried = &part->automaton.set.burials;
-    TRY(fragments_measure(&s->model->lattice, elements, &seen));
+    TRY(measure_fragments(s, elements, &seen));
     seen.buried = buried->n;
     seen.buried_node = buried->n > 0 ? model_node(part->model, buried->node) : -1;
     seen.buried_t = buried->t;

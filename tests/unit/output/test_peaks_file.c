@@ -38,7 +38,7 @@ static stress_case *begin(dem_index most)
     assert_ok(frames_init(&c->frames, c->run.model, &options_of_file));
     assert_ok(frames_create(&c->frames, &c->stored.file, &(lattice_source){dem_model_lattice(c->run.model), NULL}));
     c->frames.n = 2;
-    c->report = (peaks_report){c->peaks, lattice_source_of(c->run.model), most};
+    c->report = (peaks_report){c->peaks, dem_private_lattice_source(c->run.model), most};
     return c;
 }
 
