@@ -34,6 +34,7 @@ static const char usage[] =
     "  --resume-anyway        go on from a checkpoint of another version: not to the same bits\n"
     "  --mpi                  run as ranks of MPI; under mpirun or srun with several processes this is so anyway\n"
     "  --writers W            frames go to W files beside each file of the run, by W ranks; at most as many as ranks\n"
+    "  --slab-nodes N         a body of N nodes and more is made by the ranks, each its part (default: 1e6)\n"
     "  --serial               run under mpirun or srun: each process by itself, with an output of its own\n"
     "signals: SIGUSR1 writes a checkpoint; SIGTERM, SIGINT, SIGXCPU and SIGUSR2 end as --max-wall does\n"
     "exit codes: 0 done, 2 usage, 3 deck invalid, 4 numerics failed, 5 input or output, also over --max-disk,\n"
@@ -103,6 +104,14 @@ static bool parse_writers(command *c, const char *number)
     return parse_count(c, &c->writers, 6, "'--writers' needs a number of ranks, from 1", number);
 }
 
+static bool parse_slab_nodes(command *c, const char *number)
+{
+    long n = 0;
+    if (!parse_count(c, &n, 18, "'--slab-nodes' needs a number of nodes, from 1", number)) return false;
+    c->slab_nodes = (double)n;
+    return true;
+}
+
 static bool parse_seconds(const command *c, double *out, const char *option, const char *text)
 {
     char *end = NULL;
@@ -157,11 +166,17 @@ static bool parse_disk(command *c, const char *number)
 static const struct {
     const char *word;
     bool (*parse)(command *c, const char *value);
-} options[] = {{"--outdir", parse_outdir},     {"--index", parse_index},
-               {"--writers", parse_writers},   {"--jobs", parse_jobs},
-               {"--set", parse_set},           {"--max-memory", parse_memory},
-               {"--max-steps", parse_steps},   {"--max-disk", parse_disk},
-               {"--max-wall", parse_max_wall}, {"--checkpoint-interval", parse_interval}};
+} options[] = {{"--outdir", parse_outdir},
+               {"--index", parse_index},
+               {"--writers", parse_writers},
+               {"--jobs", parse_jobs},
+               {"--slab-nodes", parse_slab_nodes},
+               {"--set", parse_set},
+               {"--max-memory", parse_memory},
+               {"--max-steps", parse_steps},
+               {"--max-disk", parse_disk},
+               {"--max-wall", parse_max_wall},
+               {"--checkpoint-interval", parse_interval}};
 
 /* ---- words ---- */
 
@@ -218,6 +233,7 @@ exit_code command_parse(command *c, const host *h, int argc, char **argv)
                    .most = limit_default(),
                    .jobs = 1,
                    .writers = 1,
+                   .slab_nodes = 1e6,
                    .checkpoint_interval = 600.0,
                    .max_wall = (double)INFINITY,
                    .wall_start = wall_clock()};

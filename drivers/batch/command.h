@@ -32,6 +32,7 @@ typedef struct command {
     const struct rank_group *ranks; /* that make each run; NULL: this process alone does */
     bool json;                      /* results go to standard output, too: as asked for, or where programs read it */
     long writers;                   /* ranks that write frames; 1: rank 0 alone */
+    double slab_nodes;              /* bodies of as many are made in slabs by the ranks */
     long jobs;                      /* cases at once, in processes of their own if more than one */
     limits most;                    /* of each case; disk infinite: what is free */
     bool memory_given;              /* else the cases that are done at once share the machine's */

@@ -45,6 +45,7 @@ typedef struct job {
     lock lock;
     time_t start;
     double wall_start; /* s */
+    double nodes;      /* about, before anything is built */
     bool claimed;      /* the output is ours */
     bool reported;     /* the result */
     outcome outcome;
@@ -134,9 +135,10 @@ static dem_status share(const job *j, const dem_checkpoint *checkpoint)
 
 static dem_status simulate(job *j)
 {
-    const dem_status status = dem_simulation_create(&j->simulation, j->model, &j->options);
+    dem_status status = dem_simulation_create(&j->simulation, j->model, &j->options);
+    if (status == DEM_OK) status = share(j, NULL);
     if (status == DEM_OK) looks_settle(&j->deck, j->simulation);
-    return status == DEM_OK ? share(j, NULL) : status;
+    return status;
 }
 
 /* The counterpart of begin() and simulate(). */
@@ -258,7 +260,7 @@ static void print_preview(job *j, const char *output)
 {
     const rank_group *ranks = j->command->ranks;
     preview_print(&j->log, &j->deck, j->simulation, output);
-    if (ranks != NULL) rank_group_print(ranks, j->simulation, j->log.out);
+    if (ranks != NULL) rank_group_print(ranks, j->simulation, j->deck.slabs.are_made, j->log.out);
     (void)fflush(j->log.out);
 }
 
@@ -406,6 +408,7 @@ static bool fits(job *j)
         outcome_fail(&j->outcome, EXIT_MEMORY, j->file, "out of memory");
         return false;
     }
+    j->nodes = needed.nodes;
     j->most = c->most;
     if (c->action == COMMAND_ECHO)
         j->most.disk = j->most.steps = (double)INFINITY;
@@ -421,12 +424,35 @@ static bool ends(job *j)
 }
 
 /* The model looks at the deck's lattice as long as there is one, but has velocities of its own. */
-static dem_status build(job *j)
+static dem_status model_whole(job *j)
 {
     deck *d = &j->deck;
-    dem_status status = dem_model_create_borrowing(&j->model, &d->lattice, d->obstacles, d->n_obstacles);
+    const dem_status status = dem_model_create_borrowing(&j->model, &d->lattice, d->obstacles, d->n_obstacles);
     free(d->lattice.velocity);
     d->lattice.velocity = NULL;
+    return status;
+}
+
+static dem_status model_slabs(job *j)
+{
+    const deck *d = &j->deck;
+    size_t size = 0;
+    void *recipe = deck_slabs_recipe(&size, &d->slabs, d->echo);
+    if (recipe == NULL) return DEM_ERROR_MEMORY;
+    const slab_recipe all = {.bytes = recipe,
+                             .size = size,
+                             .obstacles = d->obstacles,
+                             .n_obstacles = d->n_obstacles,
+                             .options = &d->options};
+    const dem_status status = rank_group_slabs(j->command->ranks, &j->model, &all);
+    free(recipe);
+    return status;
+}
+
+static dem_status build(job *j)
+{
+    const deck *d = &j->deck;
+    const dem_status status = d->slabs.are_made ? model_slabs(j) : model_whole(j);
     if (status != DEM_OK) return status;
     j->options = d->options;
     if (d->residual > 0.0 && j->options.mass_damping == 0.0)
@@ -582,12 +608,21 @@ static bool succeeded(job *j, deck_status status, namelist_errors *errors)
     return status == DECK_OK;
 }
 
+/* Bodies that are large enough, so that a rank has a share of them alone. */
+static void plan_slabs(job *j)
+{
+    const command *c = j->command;
+    if (c->ranks != NULL && c->ranks->size > 1 && j->nodes >= c->slab_nodes) j->deck.slabs.n = c->ranks->size;
+}
+
 static bool read_deck(job *j)
 {
     namelist_errors errors = {0};
     const command *c = j->command;
     if (!succeeded(j, deck_parse(&j->deck, j->file, c->settings, c->n_settings, &errors), &errors)) return false;
-    return fits(j) && succeeded(j, deck_build(&j->deck, &errors), &errors);
+    if (!fits(j)) return false;
+    plan_slabs(j);
+    return succeeded(j, deck_build(&j->deck, &errors), &errors);
 }
 
 static bool find_path(job *j)

@@ -254,6 +254,10 @@ static void print_measured(run_log *log, const deck *d, const dem_model *model)
     const double start = wall_clock();
     const dem_index n = ask_sizes(model).n_nodes;
     if (!d->measure) return;
+    if (d->slabs.are_made) {
+        (void)fprintf(out, "constants  not measured of a body that ranks have made in slabs\n");
+        return;
+    }
     if (n > most_measured) {
         (void)fprintf(out, "constants  not measured: %lld nodes, the limit is %d\n", (long long)n, (int)most_measured);
         return;

@@ -8,6 +8,7 @@
 #include <malloc.h>
 #endif
 
+#include "deck_slabs.h"
 #include "outcome.h"
 
 static const char library[] = "libdem_mpi.so.2";
@@ -40,11 +41,12 @@ static void keep_no_freed_arrays(void)
 
 bool rank_group_begin(rank_group *g, const host *h, char why[RANK_GROUP_REASON])
 {
-    void *(*begin)(int *rank, int *size, volatile sig_atomic_t *const *requests, void (*lacks_memory)(void *program),
-                   void *program) = NULL;
+    void *(*begin)(int *rank, int *size, volatile sig_atomic_t *const *requests, const slab_maker *maker,
+                   void (*lacks_memory)(void *program), void *program) = NULL;
     keep_no_freed_arrays();
     *g = (rank_group){.host = h, .library = dlopen(library, RTLD_NOW | RTLD_GLOBAL)};
     if (g->library == NULL || !find(g, "dem_private_program_begin", (void *)&begin) ||
+        !find(g, "dem_private_program_slabs", (void *)&g->slabs) ||
         !find(g, "dem_private_program_lead", (void *)&g->lead) ||
         !find(g, "dem_private_program_shares", (void *)&g->shares) ||
         !find(g, "dem_private_program_abort", (void *)&g->abort) ||
@@ -54,9 +56,14 @@ bool rank_group_begin(rank_group *g, const host *h, char why[RANK_GROUP_REASON])
         return false;
     }
     volatile sig_atomic_t *const both[] = {&h->requests->end, &h->requests->checkpoint};
-    g->self = begin(&g->rank, &g->size, both, end_all, g);
+    g->self = begin(&g->rank, &g->size, both, &(slab_maker){deck_slabs_make, NULL}, end_all, g);
     if (g->self == NULL) (void)snprintf(why, RANK_GROUP_REASON, "%s has another version, or no memory", library);
     return g->self != NULL;
+}
+
+dem_status rank_group_slabs(const rank_group *g, dem_model **out, const slab_recipe *recipe)
+{
+    return g->slabs(g->self, out, recipe);
 }
 
 dem_status rank_group_lead(const rank_group *g, dem_simulation *whole, const dem_options *options,
@@ -65,13 +72,13 @@ dem_status rank_group_lead(const rank_group *g, dem_simulation *whole, const dem
     return g->lead(g->self, whole, options, checkpoint);
 }
 
-void rank_group_print(const rank_group *g, const dem_simulation *whole, FILE *out)
+void rank_group_print(const rank_group *g, const dem_simulation *whole, bool of_slabs, FILE *out)
 {
     enum { OWN, GHOSTS, COMMON, MEMORY, ALL }; /* as dem_private_program_shares() has them */
     static const char *const what[] = {[OWN] = "own nodes", [GHOSTS] = "ghosts", [COMMON] = "common nodes of others"};
     double least[ALL], most[ALL];
     g->shares(whole, least, most);
-    (void)fprintf(out, "ranks      %d:", g->size);
+    (void)fprintf(out, "ranks      %d%s:", g->size, of_slabs ? ", of slabs" : "");
     for (int k = OWN; k <= COMMON; k++) {
         (void)fprintf(out, "%s %.0f", k == OWN ? "" : ",", least[k]);
         if (most[k] > least[k]) (void)fprintf(out, " to %.0f", most[k]);

@@ -286,6 +286,37 @@ static bool set_probes(deck *d, const schema_deck *groups, const placement *bodi
     return good;
 }
 
+/* In place of the lattice its strip, which is as good for all checks. */
+static bool look_at_slabs(deck *d, body_start *start, const body_scene *scene)
+{
+    deck_slabs_found found;
+    if (d->slabs.n == 0 || !deck_slabs_suit(scene->groups)) return true;
+    if (!deck_slabs_look(&found, &d->slabs, scene)) return false;
+    if (!d->slabs.are_made) return true;
+    d->lattice = found.strip;
+    d->facts = found.lattice;
+    d->bodies[0] = found.body;
+    *start = found.start;
+    return true;
+}
+
+static bool build_bodies(deck *d, body_start *starts, placement *places, const body_scene *scene,
+                         namelist_errors *errors)
+{
+    body_start *next = starts;
+    bool good = true;
+    for (size_t k = 0; k < d->n_bodies && good; k++) {
+        const dem_index first = d->slabs.are_made ? 0 : d->lattice.n_nodes;
+        good = d->slabs.are_made || set_body(d, next, scene, k, errors);
+        places[k] = (placement){.first = first,
+                                .n_nodes = d->lattice.n_nodes - first,
+                                .angle = next->angle,
+                                .offset = {next->offset[0], next->offset[1]}};
+        next += copies_count(schema_get(scene->groups, "body", k));
+    }
+    return good;
+}
+
 static bool set_bodies(deck *d, schema_deck *groups, const char *folder, namelist_errors *errors)
 {
     dem_obstacle *still = obstacles_still(d->obstacles, d->n_obstacles);
@@ -295,20 +326,12 @@ static bool set_bodies(deck *d, schema_deck *groups, const char *folder, namelis
                               .n_obstacles = d->n_obstacles,
                               .gravity = {d->options.gravity[0], d->options.gravity[1]}};
     const size_t n = schema_count(groups, "body");
-    body_start *starts = calloc(copies_total(groups) + 1, sizeof *starts), *next = starts;
+    body_start *starts = calloc(copies_total(groups) + 1, sizeof *starts);
     placement *places = calloc(n + 1, sizeof *places);
     d->bodies = calloc(n + 1, sizeof *d->bodies);
     d->n_bodies = n;
     bool good = starts != NULL && places != NULL && d->bodies != NULL && still != NULL;
-    for (size_t k = 0; k < n && good; k++) {
-        const dem_index first = d->lattice.n_nodes;
-        good = set_body(d, next, &scene, k, errors);
-        places[k] = (placement){.first = first,
-                                .n_nodes = d->lattice.n_nodes - first,
-                                .angle = next->angle,
-                                .offset = {next->offset[0], next->offset[1]}};
-        next += copies_count(schema_get(groups, "body", k));
-    }
+    good = good && look_at_slabs(d, starts, &scene) && build_bodies(d, starts, places, &scene, errors);
     good = good && check_starts(d, starts, &scene, errors);
     if (good && errors->n == 0) precision_check(groups, &d->lattice, errors);
     if (good && errors->n == 0) good = surfaces_settle(&d->options, groups, &d->lattice, places, errors);
@@ -396,7 +419,8 @@ deck_status deck_build(deck *d, namelist_errors *errors)
     bool good = d->obstacles != NULL;
     if (good && errors->n == 0) good = set_bodies(d, &d->groups, d->folder, errors);
     if (good && errors->n == 0) good = set_texts(d, &d->groups, d->folder, errors);
-    if (good && errors->n == 0) good = lattice_facts_find(&d->facts, &d->lattice);
+    if (good && errors->n == 0 && !d->slabs.are_made) good = lattice_facts_find(&d->facts, &d->lattice);
+    if (d->slabs.are_made) dem_lattice_free(&d->lattice); /* the strip has been checked */
     settle_breaks(d);
     return conclude(d, good ? DECK_OK : DECK_MEMORY, errors);
 }

@@ -7,6 +7,7 @@
 #include <dem/trajectory.h>
 
 #include "body.h"
+#include "deck_slabs.h"
 #include "lattice_facts.h"
 #include "schema.h"
 #include "setting.h"
@@ -42,6 +43,7 @@ typedef struct deck {
     char *course;         /* resolved: what a run that goes on from another must have in common with it */
     uint64_t hash;       /* FNV-1a of `physics`, in which files of bodies stand as hashes of their bytes: the problem */
     uint64_t run_hash;   /* the same with every key: the run */
+    deck_slabs slabs;    /* that are made in place of: */
     dem_lattice lattice; /* all bodies, in the order of the deck */
     lattice_facts facts; /* of it */
     body_facts *bodies;  /* [n_bodies], one for each group */
@@ -61,8 +63,8 @@ typedef struct deck {
  * line -1 - k. Nothing is built yet. *out is empty unless DECK_OK is returned. */
 deck_status deck_parse(deck *out, const char *path, const setting *settings, size_t n, namelist_errors *errors);
 
-/* Builds what a deck that was parsed describes; what is wrong with the geometry is reported for all bodies. To be
- * called once. *d is empty unless DECK_OK is returned. */
+/* Builds what a deck that was parsed describes, in slabs where d->slabs.n is not 0 and it suits; what is wrong with the
+ * geometry is reported for all bodies. To be called once. *d is empty unless DECK_OK is returned. */
 deck_status deck_build(deck *d, namelist_errors *errors);
 
 void deck_free(deck *d);

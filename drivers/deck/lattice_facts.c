@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const unsigned rigid_flags = DEM_NODE_RIGID | DEM_NODE_GUIDE_X | DEM_NODE_GUIDE_Y;
 
@@ -17,26 +18,45 @@ static unsigned flags_of(const dem_lattice *l, dem_index node)
     return l->flags != NULL ? l->flags[node] : 0;
 }
 
-static bool find_bodies(lattice_facts *f, const dem_lattice *l)
+static bool make_bodies(lattice_facts *f, dem_index n)
 {
-    for (dem_index i = 0; i < l->n_nodes; i++)
-        if (body_of(l, i) >= f->n_bodies) f->n_bodies = body_of(l, i) + 1;
-    f->bodies = calloc((size_t)f->n_bodies + 1, sizeof *f->bodies);
-    for (dem_index i = 0; i < l->n_nodes && f->bodies != NULL; i++) {
+    if (n <= f->n_bodies) return true;
+    lattice_body *more = realloc(f->bodies, (size_t)n * sizeof *more);
+    if (more == NULL) return false;
+    memset(more + f->n_bodies, 0, (size_t)(n - f->n_bodies) * sizeof *more);
+    f->bodies = more;
+    f->n_bodies = n;
+    return true;
+}
+
+/* Nodes from `first` on, and all springs. */
+static bool add(lattice_facts *f, const dem_lattice *l, dem_index first, dem_index n)
+{
+    f->may_break = l->strength != NULL || l->critical_stretch != NULL;
+    f->may_soften = f->may_break && l->softening != NULL;
+    for (dem_index k = 0; k < l->n_springs && l->viscosity != NULL; k++)
+        f->damping_time = fmax(f->damping_time, l->viscosity[k] / l->stiffness[k]);
+    for (dem_index i = first; i < first + n; i++) {
+        if (!make_bodies(f, body_of(l, i) + 1)) return false;
         lattice_body *body = &f->bodies[body_of(l, i)];
         body->rigid |= flags_of(l, i) & rigid_flags;
         initial_motion_add(&body->motion, l, i);
         initial_motion_add(&f->motion, l, i);
     }
-    return f->bodies != NULL;
+    return true;
 }
 
-static void find_box(lattice_facts *f, const dem_lattice *l)
+bool lattice_facts_add(lattice_facts *facts, const dem_slab *slab)
+{
+    return add(facts, &slab->lattice, slab->first_own, slab->n_own);
+}
+
+void lattice_facts_find_box(lattice_facts *f, const dem_lattice *box)
 {
     for (int c = 0; c < 2; c++) f->low[c] = (double)INFINITY, f->high[c] = -(double)INFINITY;
-    for (dem_index k = 0; k < 2 * l->n_nodes; k++) {
-        f->low[k % 2] = fmin(f->low[k % 2], l->x[k]);
-        f->high[k % 2] = fmax(f->high[k % 2], l->x[k]);
+    for (dem_index k = 0; k < 2 * box->n_nodes; k++) {
+        f->low[k % 2] = fmin(f->low[k % 2], box->x[k]);
+        f->high[k % 2] = fmax(f->high[k % 2], box->x[k]);
     }
 }
 
@@ -46,11 +66,10 @@ static double slowness_of(const dem_lattice *l, dem_index spring)
     return sqrt(0.5 * mass / (l->stiffness[spring] * l->rest_length[spring]));
 }
 
-static void find_springs(lattice_facts *f, const dem_lattice *l)
+static void find_share(lattice_facts *f, const dem_lattice *l)
 {
     double least = (double)INFINITY, sum = 0.0;
     for (dem_index k = 0; k < l->n_springs; k++) {
-        if (l->viscosity != NULL) f->damping_time = fmax(f->damping_time, l->viscosity[k] / l->stiffness[k]);
         const double slowness = slowness_of(l, k);
         least = fmin(least, slowness);
         sum += slowness;
@@ -61,11 +80,9 @@ static void find_springs(lattice_facts *f, const dem_lattice *l)
 bool lattice_facts_find(lattice_facts *out, const dem_lattice *lattice)
 {
     *out = (lattice_facts){0};
-    out->may_break = lattice->strength != NULL || lattice->critical_stretch != NULL;
-    out->may_soften = out->may_break && lattice->softening != NULL;
-    find_box(out, lattice);
-    find_springs(out, lattice);
-    return find_bodies(out, lattice);
+    lattice_facts_find_box(out, lattice);
+    find_share(out, lattice);
+    return add(out, lattice, 0, lattice->n_nodes);
 }
 
 void lattice_facts_free(lattice_facts *facts)

@@ -6,6 +6,8 @@
 
 #include <stdbool.h>
 
+#include <dem/slab.h>
+
 #include "initial_motion.h"
 
 /* A body of the lattice, and of its model. */
@@ -28,6 +30,11 @@ typedef struct lattice_facts {
 
 /* Of a lattice of which a model can be made. False when memory runs out. Free with lattice_facts_free() in any case. */
 bool lattice_facts_find(lattice_facts *out, const dem_lattice *lattice);
+
+/* The same of slabs, one after the other, but for share_of_fastest, which stays 0, as masses of a rim are not those of
+ * the whole. The box is that of `box`, any nodes that have the outermost among them. Facts are zero at first. */
+bool lattice_facts_add(lattice_facts *facts, const dem_slab *slab);
+void lattice_facts_find_box(lattice_facts *facts, const dem_lattice *box);
 void lattice_facts_free(lattice_facts *facts);
 
 /* The diagonal of the box of all nodes at rest, m: no body is longer. */

@@ -84,6 +84,18 @@ BREAKING = """
 &output name = 'free', frame_interval = 1e-4, peak_every = 3,
     fields = 'displacement', 'stress', 'principal', 'strain', 'force', 'fragment', 'damage', 'contact' /
 """
+# Touches uneven ground and itself. Constants are not measured, as they are not of a million nodes.
+IN_SLABS = """
+&run t_end = 2e-3 /
+&material youngs_modulus = 1e6, poissons_ratio = 0.3, density = 1050 /
+&body shape = 'ring', radius = 0.05, inner_radius = 0.03, spacing = 4e-3, outline = 'lattice', clearance = 2e-4,
+    velocity = 2, -12 /
+&void shape = 'disc', centre = 0, 0.04, radius = 0.005 /
+&obstacle points = -0.2, -0.02, -0.01, -0.01, 0.01, 0.01, 0.2, -0.02, friction = 0.3 /
+&solver checkpoint_steps = 20 /
+&output name = 'free', frame_interval = 2e-4, peak_every = 3, measure = .false.,
+    fields = 'displacement', 'velocity', 'stress', 'strain', 'force', 'contact' /
+"""
 # So many nodes that rows are left out, which falls on a floor and comes off again.
 LANDS = """
 &run t_end = 6e-3 /
@@ -208,6 +220,7 @@ class Runs(unittest.TestCase):
         (self.folder / "large.nml").write_text(WITH_RULE, encoding="ascii")
         (self.folder / "touching.nml").write_text(TOUCHING, encoding="ascii")
         (self.folder / "breaking.nml").write_text(BREAKING, encoding="ascii")
+        (self.folder / "slabs.nml").write_text(IN_SLABS, encoding="ascii")
         (self.folder / "dropped.nml").write_text(DROPPED, encoding="ascii")
 
     def command(self, n, outdir, *more, deck="free.nml"):
@@ -437,6 +450,28 @@ class LongerTouching(Runs):
                 code, _, errors = self.run_on(n, f"{name}{n}", *settings, deck=deck)
                 self.assertEqual(code, 0, errors)
                 self.assert_same(name, f"{name}{n}")
+
+
+class InSlabs(Runs):
+    """Nobody has the whole of a body."""
+
+    def test_files_are_those_of_one_process_and_any_number_of_ranks_goes_on(self):
+        self.assertEqual(self.run_on(0, "one", deck="slabs.nml")[0], 0)
+        self.assertGreater(self.result("one")["events"] + self.result("one")["pairs_most"], 20)
+        for k, (n, nodes) in enumerate(((3, "1"), (2, "1000000"), (4, "1"))):
+            code, log, errors = self.run_on(n, "parts", "--set", f"run.t_end={(k + 2) * 5e-4}", "--slab-nodes", nodes,
+                                            deck="slabs.nml")
+            self.assertEqual(code, 0, errors)
+            self.assertEqual("of slabs" in log, nodes == "1")
+            self.assertEqual("resumed" in log, k > 0)
+        self.assert_same("one", "parts")
+
+    def test_a_deck_that_does_not_suit_is_built_as_a_whole(self):
+        self.assertEqual(self.run_on(0, "one")[0], 0)
+        code, log, errors = self.run_on(3, "ranks", "--slab-nodes", "1")
+        self.assertEqual(code, 0, errors)
+        self.assertNotIn("of slabs", log)
+        self.assert_same("one", "ranks")
 
 
 class LongerAtOnce(Runs):

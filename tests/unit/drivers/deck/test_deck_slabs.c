@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* deck_slabs.c, slab_survey.c: what is found of a body slab by slab is what is found of the whole, to the bit; the
+ * slabs that ranks make by the recipe have the nodes of the whole; and what a deck asks for beyond that takes the
+ * whole. */
+#include "deck_slabs.h"
+
+#include "unit/close.h"
+#include "unit/deck_text.h"
+
+#define RUN    "&run t_end = 1 /\n&material youngs_modulus = 1e7, density = 1000, damping_time = 1e-5 /\n"
+#define GROUND "&obstacle points = -0.3, -0.02, -0.02, -0.012, 0, 0.02, 0.03, -0.01, 0.3, -0.02 /\n"
+
+/* The disc and the ring begin with the ground in them, so that they go back before they come to their clearance. */
+static const char *const suited[] = {
+    RUN GROUND "&body shape = 'rectangle', size = 0.08, 0.13, spacing = 5e-3, outline = 'lattice', clearance = 2e-4, "
+               "velocity = 0.3, -10, angle = 20 /\n&void shape = 'disc', centre = 0.01, 0.05, radius = 0.015 /\n",
+    RUN GROUND "&body shape = 'disc', radius = 0.065, spacing = 4e-3, outline = 'lattice', clearance = 2e-4 /\n"
+               "&void shape = 'disc', centre = 0, 0.01, radius = 0.025 /\n",
+    RUN GROUND "&body shape = 'ring', radius = 0.06, inner_radius = 0.045, spacing = 3e-3, outline = 'lattice', "
+               "clearance = 1e-3, position = 0.01, 0.02 /\n",
+    RUN GROUND "&body shape = 'rectangle', size = 0.11, 0.11, spacing = 4e-3, outline = 'lattice', clearance = 0 /\n"
+               "&pores number = 8, radius = 4e-3, 8e-3, wall = 8e-3, seed = 3 /\n",
+    RUN GROUND "&body shape = 'polygon', points = 0, 0, 0.1, 0, 0.05, 0.03, 0.1, 0.1, 0, 0.1, spacing = 3e-3, "
+               "outline = 'lattice', position = 0, 0.1 /\n",
+};
+enum { N_SUITED = sizeof suited / sizeof *suited, MOST_SLABS = 5 };
+
+/* In so many slabs; 0: as a whole. */
+static deck read_in(dem_index n, const char *text)
+{
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
+    const char *path = folder_at(&scratch, "a.nml");
+    deck d;
+    file_put(path, text, strlen(text));
+    deck_status status = deck_parse(&d, path, NULL, 0, &errors);
+    if (status == DECK_OK) {
+        d.slabs.n = n;
+        status = deck_build(&d, &errors);
+    }
+    if (errors.n > 0) fail_msg("%s", errors.list[0].text);
+    assert_int_equal(status, DECK_OK);
+    assert_int_equal(unlink(path), 0);
+    return d;
+}
+
+static void check_facts(const deck *whole, const deck *slabs)
+{
+    const body_facts *a = &whole->bodies[0], *b = &slabs->bodies[0];
+    const lattice_facts *f = &whole->facts, *g = &slabs->facts;
+    assert_memory_equal(&a->mass, &b->mass, sizeof a->mass);
+    assert_memory_equal(&a->true_mass, &b->true_mass, sizeof a->true_mass);
+    assert_memory_equal(&a->least_angle, &b->least_angle, sizeof a->least_angle);
+    assert_memory_equal(&a->geometry.area, &b->geometry.area, sizeof a->geometry.area);
+    assert_int_equal(a->geometry.n_pores, b->geometry.n_pores);
+    assert_int_equal(a->loose.n + b->loose.n + a->hinges.n + b->hinges.n, 0);
+    assert_memory_equal(&f->motion, &g->motion, sizeof f->motion);
+    assert_memory_equal(f->low, g->low, sizeof f->low);
+    assert_memory_equal(f->high, g->high, sizeof f->high);
+    assert_memory_equal(&f->damping_time, &g->damping_time, sizeof f->damping_time);
+    assert_int_equal(g->n_bodies, 1);
+    assert_memory_equal(&f->bodies[0], &g->bodies[0], sizeof f->bodies[0]);
+}
+
+/* Own nodes, by their numbers, with all that they have in the whole. */
+static void check_nodes(const dem_lattice *whole, const dem_slab *slab)
+{
+    const dem_lattice *l = &slab->lattice;
+    const dem_index first = slab->first_node, own = slab->first_own;
+    const size_t n = (size_t)slab->n_own;
+    assert_memory_equal(whole->x + 2 * first, l->x + 2 * own, 2 * n * sizeof *l->x);
+    assert_memory_equal(whole->mass + first, l->mass + own, n * sizeof *l->mass);
+    assert_memory_equal(whole->velocity + 2 * first, l->velocity + 2 * own, 2 * n * sizeof *l->velocity);
+}
+
+static void check_slabs(const deck *whole, const deck *slabs)
+{
+    size_t size;
+    void *recipe = deck_slabs_recipe(&size, &slabs->slabs, slabs->echo);
+    dem_index n_nodes = 0;
+    assert_non_null(recipe);
+    for (dem_index part = 0; part < slabs->slabs.n; part++) {
+        CLEANUP(dem_slab_free) dem_slab slab = dem_slab_empty();
+        assert_int_equal(deck_slabs_make(NULL, recipe, size, part, slabs->slabs.n, &slab), DEM_OK);
+        assert_int_equal(slab.first_node, n_nodes);
+        check_nodes(&whole->lattice, &slab);
+        n_nodes += slab.n_own;
+    }
+    assert_int_equal(n_nodes, whole->lattice.n_nodes);
+    free(recipe);
+}
+
+TEST(slabs_have_the_facts_and_the_nodes_of_the_whole)
+{
+    for (int k = 0; k < N_SUITED; k++) {
+        CLEANUP(deck_free) deck whole = read_in(0, suited[k]);
+        for (dem_index n = 1; n <= MOST_SLABS; n++) {
+            CLEANUP(deck_free) deck slabs = read_in(n, suited[k]);
+            assert_true(slabs.slabs.are_made);
+            assert_int_equal(slabs.lattice.n_nodes, 0);
+            assert_string_equal(whole.echo, slabs.echo);
+            check_facts(&whole, &slabs);
+            check_slabs(&whole, &slabs);
+        }
+    }
+}
+
+TEST(what_asks_for_more_is_built_as_a_whole)
+{
+    static const char *const others[] = {
+        RUN "&body shape = 'rectangle', size = 0.05, 0.05, spacing = 5e-3, outline = 'lattice', spin = 3 /\n",
+        RUN "&body shape = 'rectangle', size = 0.05, 0.05, spacing = 5e-3, outline = 'lattice', jitter = 0.1 /\n",
+        RUN "&body shape = 'rectangle', size = 0.05, 0.05, spacing = 5e-3, outline = 'smooth' /\n",
+        RUN "&body shape = 'rectangle', size = 0.05, 0.05, spacing = 5e-3, lattice = 'square' /\n",
+        RUN "&body shape = 'disc', radius = 0.05, spacing = 5e-3, outline = 'lattice' /\n"
+            "&probe name = 'p', body = 1, place = 0, 0 /\n",
+        RUN "&body shape = 'disc', radius = 0.02, spacing = 5e-3, outline = 'lattice' /\n"
+            "&body shape = 'disc', radius = 0.02, spacing = 5e-3, outline = 'lattice', position = 0.1, 0 /\n",
+        /* A slit cuts the body in two. */
+        RUN "&body shape = 'rectangle', size = 0.05, 0.1, spacing = 5e-3, outline = 'lattice', "
+            "disconnected = 'keep' /\n"
+            "&void shape = 'rectangle', size = 0.1, 0.012, centre = 0, 0.05 /\n",
+    };
+    for (size_t k = 0; k < sizeof others / sizeof *others; k++) {
+        CLEANUP(deck_free) deck d = read_in(3, others[k]);
+        assert_false(d.slabs.are_made);
+        assert_true(d.lattice.n_nodes > 0);
+    }
+}
+
+/* The whole names the place, the obstacle and the depth. */
+TEST(what_is_wrong_is_reported_as_of_the_whole)
+{
+    static const char text[] =
+        RUN GROUND "&body shape = 'disc', radius = 0.065, spacing = 4e-3, outline = 'lattice' /\n";
+    namelist_errors errors[2] = {{0}};
+    const char *path = folder_at(&scratch, "a.nml");
+    file_put(path, text, strlen(text));
+    for (int k = 0; k < 2; k++) {
+        deck d;
+        assert_int_equal(deck_parse(&d, path, NULL, 0, &errors[k]), DECK_OK);
+        d.slabs.n = k == 0 ? 0 : 3;
+        assert_int_equal(deck_build(&d, &errors[k]), DECK_INVALID);
+    }
+    assert_int_equal(errors[0].n, errors[1].n);
+    for (size_t e = 0; e < errors[0].n; e++) assert_string_equal(errors[0].list[e].text, errors[1].list[e].text);
+    for (int k = 0; k < 2; k++) namelist_errors_free(&errors[k]);
+    assert_int_equal(unlink(path), 0);
+}
+
+TEST_GROUP(scratch_make, scratch_remove);
