@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* whole_nodes.c: two blocks of two rows, of 4 and 3 nodes 1 m apart, the second one 5 m higher. Nodes of a row are
- * numbered from left to right. */
+/* whole_nodes.c: two blocks of two rows, of 4 and 3 nodes 1 m apart, the second one 5 m higher and 2 m farther right.
+ * Nodes of a row are numbered from left to right. */
 #include "unit/close.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@ static dem_lattice make_blocks(void)
     CLEANUP(dem_lattice_free) dem_lattice second = make_solid(3.0, 1.0, 1.0);
     dem_lattice both = make_solid(3.0, 1.0, 1.0);
     assert_int_equal(both.n_nodes, 7);
-    dem_lattice_move(&second, 0.0, (const double[2]){0.0, 5.0});
+    dem_lattice_move(&second, 0.0, (const double[2]){2.0, 5.0});
     assert_int_equal(dem_lattice_append(&both, &second), DEM_OK);
     return both;
 }
@@ -47,12 +47,12 @@ TEST(a_node_has_a_body_and_a_place)
     whole_nodes_place(x, model, 5);
     expect(x, 0.0, row);
     whole_nodes_place(x, model, 7);
-    expect(x, -1.5, 5.0);
+    expect(x, 0.5, 5.0);
     assert_int_equal(whole_nodes_body(model, 6), 0);
     assert_int_equal(whole_nodes_body(model, 7), 1);
 }
 
-/* Of two springs that make a corner the second one. */
+/* Of two springs that make a corner. */
 TEST(a_spring_has_a_middle_and_a_stiffness)
 {
     double x[6] = {0.0, 0.0, 4.0, 0.0, 4.0, 2.0}, masses[3] = {1.0, 1.0, 1.0};
@@ -62,7 +62,8 @@ TEST(a_spring_has_a_middle_and_a_stiffness)
     l.n_nodes = 3, l.n_springs = 2, l.x = x, l.mass = masses;
     l.ends = ends, l.rest_length = lengths, l.stiffness = stiffnesses;
     CLEANUP(free_model) dem_model *model = make_model(&l);
-    const whole_spring second = whole_nodes_spring(model, 1);
+    const whole_spring first = whole_nodes_spring(model, 0), second = whole_nodes_spring(model, 1);
+    expect(first.middle, 2.0, 0.0);
     expect(second.middle, 4.0, 1.0);
     assert_close(second.stiffness, 300.0, 0.0);
 }
