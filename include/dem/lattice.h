@@ -263,10 +263,15 @@ DEM_API void dem_lattice_move(dem_lattice *lattice, double angle, const double o
 /** Adds `velocity` (m/s) to the initial velocity of every node. */
 DEM_API dem_status dem_lattice_launch(dem_lattice *lattice, const double velocity[2]);
 
-/** Adds a rigid rotation about the centre of mass, where the nodes start, to the initial velocities.
+/** Adds a rigid rotation about the centre of mass, where the nodes start, to the initial velocities. That centre is the
+ *  sum of m_i x_i, in the order of the nodes, times 1/(the sum of m_i).
  *  \param angular_velocity  rad/s, counter-clockwise
  *  \return DEM_ERROR_MODEL without masses: dem_lattice_assemble() comes first */
 DEM_API dem_status dem_lattice_spin(dem_lattice *lattice, double angular_velocity);
+
+/** The same about a given place, to the same bits where that is the centre of mass: for a part of a body, of which the
+ *  part alone does not know it.  \param centre  m */
+DEM_API dem_status dem_lattice_spin_about(dem_lattice *lattice, double angular_velocity, const double centre[2]);
 
 /** Takes nodes from contact: they may not touch obstacles, nor may the edges between them.  \param nodes [n] */
 DEM_API dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n);

@@ -929,10 +929,10 @@ class dem_slab(SizedStructure):
     triangle with one of them, its *rim*, and the triangles at own nodes. Both have the order of the whole, own nodes
     and triangles without gaps. The lattice is assembled and edited as any other, by functions that look at nodes and
     triangles one by one (dem_lattice_assemble(), and dem_lattice_inside() with dem_lattice_assemble_mixed();
-    dem_lattice_move(), dem_lattice_launch(), dem_lattice_exclude(); dem_lattice_weibull() with numbers). Own nodes,
-    and springs and triangles at them, then have the bits that they have in the whole. Of the rim only places and
-    bodies have: masses, flags, and springs between two of its nodes, lack what other ranges have of them. Numbers in
-    messages are those of the slab.
+    dem_lattice_move(), dem_lattice_launch(), dem_lattice_spin_about(), dem_lattice_exclude(); dem_lattice_weibull()
+    with numbers). Own nodes, and springs and triangles at them, then have the bits that they have in the whole. Of
+    the rim only places and bodies have: masses, flags, and springs between two of its nodes, lack what other ranges
+    have of them. Numbers in messages are those of the slab.
     struct_size: set by dem_slab_empty()
     n_nodes: of the whole,
     n_triangles: likewise
@@ -1230,9 +1230,15 @@ FUNCTIONS: dict[str, tuple[Any, list[Any], str]] = {  # result, arguments, text
         Adds `velocity` (m/s) to the initial velocity of every node."""),
     "dem_lattice_spin": (c_int, [POINTER(dem_lattice), c_double],
         """dem_lattice_spin(lattice, angular_velocity)
-        Adds a rigid rotation about the centre of mass, where the nodes start, to the initial velocities.
+        Adds a rigid rotation about the centre of mass, where the nodes start, to the initial velocities. That centre
+        is the sum of m_i x_i, in the order of the nodes, times 1/(the sum of m_i).
         angular_velocity rad/s, counter-clockwise
         Returns DEM_ERROR_MODEL without masses: dem_lattice_assemble() comes first"""),
+    "dem_lattice_spin_about": (c_int, [POINTER(dem_lattice), c_double, POINTER(c_double)],
+        """dem_lattice_spin_about(lattice, angular_velocity, centre)
+        The same about a given place, to the same bits where that is the centre of mass: for a part of a body, of
+        which the part alone does not know it.
+        centre m"""),
     "dem_lattice_exclude": (c_int, [POINTER(dem_lattice), POINTER(c_int64), c_int64],
         """dem_lattice_exclude(lattice, nodes, n)
         Takes nodes from contact: they may not touch obstacles, nor may the edges between them.

@@ -246,9 +246,11 @@ class Lattice:
         """Adds a velocity, m/s, to that with which the motion starts."""
         return self._do(library.dem_lattice_launch, (c_double * 2)(*velocity))
 
-    def spin(self, angular_velocity: float) -> Self:
-        """Adds a rotation about the centre of mass, rad/s, counter-clockwise."""
-        return self._do(library.dem_lattice_spin, angular_velocity)
+    def spin(self, angular_velocity: float, centre: Sequence[float] | Floats | None = None) -> Self:
+        """Adds a rotation, rad/s, counter-clockwise, about a place, m: the centre of mass if none is given."""
+        if centre is None:
+            return self._do(library.dem_lattice_spin, angular_velocity)
+        return self._do(library.dem_lattice_spin_about, angular_velocity, (c_double * 2)(*centre))
 
     def append(self, other: Lattice) -> Self:
         """Adds a copy of another lattice; its bodies are numbered behind those that are there."""

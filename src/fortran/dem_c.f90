@@ -287,6 +287,13 @@ module dem_c
       real(c_double), value :: angular_velocity
     end function
 
+    integer(dem_status) function dem_lattice_spin_about(lattice, angular_velocity, centre) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+      real(c_double), value :: angular_velocity
+      real(c_double), intent(in) :: centre(2)
+    end function
+
     integer(dem_status) function dem_lattice_exclude(lattice, nodes, n) bind(c)
       import
       type(dem_lattice), intent(inout) :: lattice

@@ -140,28 +140,50 @@ dem_status dem_lattice_launch(dem_lattice *lattice, const double velocity[2])
     return DEM_OK;
 }
 
-/* Adds omega z x (x - x_c), with x_c the centre of mass, so that the momentum stays what it was. */
-dem_status dem_lattice_spin(dem_lattice *lattice, double angular_velocity)
+/* Spinning is about where the body starts, not about its rest shape. */
+static const double *start_of(const dem_lattice *lattice)
+{
+    return lattice->position != NULL ? lattice->position : lattice->x;
+}
+
+/* Adds omega z x (x - x_c), which leaves the momentum what it was where x_c is the centre of mass. */
+static dem_status add_rotation(dem_lattice *lattice, double angular_velocity, vec2 centre)
+{
+    TRY(dem_lattice_launch(lattice, (const double[2]){0.0, 0.0})); /* there are velocities then */
+    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        const vec2 arm = vec2_sub(vec2_at(start_of(lattice), i), centre), before = vec2_at(lattice->velocity, i);
+        vec2_put(lattice->velocity, i, vec2_along(before, angular_velocity, (vec2){-arm.y, arm.x}));
+    }
+    return DEM_OK;
+}
+
+static dem_status check_rotation(const dem_lattice *lattice, double angular_velocity)
 {
     TRY(lattice_check(lattice));
     CHECK(isfinite(angular_velocity), DEM_ERROR_ARGUMENT, "the angular velocity %g rad/s is not finite",
           angular_velocity);
+    return DEM_OK;
+}
+
+dem_status dem_lattice_spin_about(dem_lattice *lattice, double angular_velocity, const double centre[2])
+{
+    TRY(check_rotation(lattice, angular_velocity));
+    CHECK(centre != NULL && isfinite(centre[0]) && isfinite(centre[1]), DEM_ERROR_ARGUMENT,
+          "the centre of a rotation must be two finite numbers");
+    return add_rotation(lattice, angular_velocity, vec2_at(centre, 0));
+}
+
+dem_status dem_lattice_spin(dem_lattice *lattice, double angular_velocity)
+{
+    TRY(check_rotation(lattice, angular_velocity));
     CHECK(lattice->mass != NULL, DEM_ERROR_MODEL, "a lattice without masses has no centre of mass to turn about");
-    TRY(dem_lattice_launch(lattice, (const double[2]){0.0, 0.0})); /* there are velocities then */
-    /* Spinning is about where the body starts, not about its rest shape. */
-    const double *x = lattice->position != NULL ? lattice->position : lattice->x;
-    vec2 centre = {0.0, 0.0};
+    vec2 sum = {0.0, 0.0};
     double mass = 0.0;
     for (dem_index i = 0; i < lattice->n_nodes; i++) {
-        centre = vec2_along(centre, lattice->mass[i], vec2_at(x, i));
+        sum = vec2_along(sum, lattice->mass[i], vec2_at(start_of(lattice), i));
         mass += lattice->mass[i];
     }
-    for (dem_index i = 0; i < lattice->n_nodes; i++) {
-        /* `centre` is the sum of m x; divided by the mass it is the centre. */
-        const vec2 arm = vec2_along(vec2_at(x, i), -1.0 / mass, centre), before = vec2_at(lattice->velocity, i);
-        vec2_put(lattice->velocity, i, vec2_along(before, angular_velocity, (vec2){-arm.y, arm.x}));
-    }
-    return DEM_OK;
+    return add_rotation(lattice, angular_velocity, vec2_scale(1.0 / mass, sum));
 }
 
 /* A list of nodes that the caller has given. */

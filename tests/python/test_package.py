@@ -54,6 +54,13 @@ class Lattices(Case):
         self.assertAlmostEqual(constants.youngs_modulus / 1e7, 1.0, delta=1e-9)  # exact for a regular block
         self.assertAlmostEqual(constants.poissons_ratio, 1.0 / 3.0, delta=1e-9)
 
+    def test_a_rotation_is_about_a_place_or_the_centre_of_mass(self):
+        about = dem.Lattice.disc(0.02, 5e-3).spin(2.0, centre=(0.5, -0.25)).velocity
+        own = disc(velocity=(0.0, 0.0)).spin(2.0)
+        away = dem.Lattice.disc(0.02, 5e-3).x - (0.5, -0.25)
+        np.testing.assert_allclose(about, 2.0 * np.column_stack([-away[:, 1], away[:, 0]]), rtol=1e-14)
+        np.testing.assert_allclose(own.mass @ own.velocity, (0.0, 0.0), atol=1e-15)
+
     def test_arrays_are_views_that_may_be_written_to(self):
         block = dem.Lattice.rectangle(0.02, 0.02, 0.01)
         x = block.x

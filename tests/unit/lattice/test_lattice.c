@@ -180,6 +180,26 @@ TEST(spin_turns_about_the_centre_of_mass)
     free(lattice.velocity);
 }
 
+/* v + omega x r: at 2 rad/s what is 3 m right and 1 m above the centre moves with (-2, 6) m/s. No mass is needed. */
+TEST(spin_turns_about_a_place)
+{
+    double x[4] = {4.0, 6.0, 1.0, 5.0};
+    const double v[2] = {0.5, 0.25}, centre[2] = {1.0, 5.0}, nowhere[2] = {1.0, (double)NAN};
+    dem_lattice lattice = dem_lattice_empty();
+    lattice.n_nodes = 2, lattice.x = x;
+    assert_int_equal(dem_lattice_launch(&lattice, v), DEM_OK);
+    assert_int_equal(dem_lattice_spin_about(&lattice, 2.0, centre), DEM_OK);
+    assert_refused(dem_lattice_spin_about(&lattice, 2.0, nowhere), DEM_ERROR_ARGUMENT, "centre * two finite numbers");
+    assert_refused(dem_lattice_spin_about(&lattice, 2.0, NULL), DEM_ERROR_ARGUMENT, "centre * two finite numbers");
+    assert_refused(dem_lattice_spin_about(&lattice, (double)INFINITY, centre), DEM_ERROR_ARGUMENT,
+                   "angular velocity inf rad/s * not finite");
+    assert_close(lattice.velocity[0], 0.5 - 2.0, 0.0);
+    assert_close(lattice.velocity[1], 0.25 + 6.0, 0.0);
+    assert_close(lattice.velocity[2], 0.5, 0.0);
+    assert_close(lattice.velocity[3], 0.25, 0.0);
+    free(lattice.velocity);
+}
+
 TEST(move_turns_about_the_origin_then_shifts)
 {
     const double quarter = 1.5707963267948966, offset[2] = {10.0, 20.0}, v[2] = {1.0, 2.0};

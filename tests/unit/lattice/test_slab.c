@@ -59,6 +59,51 @@ TEST(one_slab_is_the_whole)
     assert_int_equal(s.lattice.n_triangles, s.n_triangles);
 }
 
+static void make_turned(dem_lattice *lattice, double angle)
+{
+    assert_int_equal(dem_lattice_assemble(lattice, &rubber), DEM_OK);
+    dem_lattice_move(lattice, angle, (const double[2]){0.1, 0.2});
+}
+
+/* The centre of mass of the whole, as it is summed up from one slab to the next. */
+static void add_own(double sum[2], double *mass, const dem_slab *slab)
+{
+    const dem_lattice *l = &slab->lattice;
+    for (dem_index i = slab->first_own; i < slab->first_own + slab->n_own; i++) {
+        for (int c = 0; c < 2; c++) sum[c] += l->mass[i] * l->x[2 * i + c];
+        *mass += l->mass[i];
+    }
+}
+
+static void compare_turning(double angle)
+{
+    enum { n_parts = 3 };
+    dem_slab slabs[n_parts];
+    double sum[2] = {0.0, 0.0}, mass = 0.0;
+    CLEANUP(dem_lattice_free) dem_lattice whole = make_rectangle(10.0, 12.0, 1.0);
+    make_turned(&whole, angle);
+    assert_int_equal(dem_lattice_spin(&whole, 3.7), DEM_OK);
+    for (dem_index p = 0; p < n_parts; p++) {
+        slabs[p] = make_slab(12.0, p, n_parts);
+        make_turned(&slabs[p].lattice, angle);
+        add_own(sum, &mass, &slabs[p]);
+    }
+    const double centre[2] = {1.0 / mass * sum[0], 1.0 / mass * sum[1]};
+    for (dem_index p = 0; p < n_parts; p++) {
+        assert_int_equal(dem_lattice_spin_about(&slabs[p].lattice, 3.7, centre), DEM_OK);
+        assert_memory_equal(slabs[p].lattice.velocity + 2 * slabs[p].first_own,
+                            whole.velocity + 2 * slabs[p].first_node,
+                            2 * (size_t)slabs[p].n_own * sizeof *whole.velocity);
+        dem_slab_free(&slabs[p]);
+    }
+}
+
+/* By angles at which the last digits of the centre differ. */
+TEST(slabs_turn_as_the_whole_does)
+{
+    for (int k = 1; k <= 8; k++) compare_turning(0.7 * k);
+}
+
 TEST(slabs_refuse_impossible_sizes_and_parts)
 {
     CLEANUP(dem_slab_free) dem_slab s = dem_slab_empty();
