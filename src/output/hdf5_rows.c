@@ -201,12 +201,18 @@ dem_status hdf5_copy(const hdf5_file *from, const hdf5_file *to, const hdf5_rows
     return status;
 }
 
-/* All rows are one chunk, since nothing is added later. */
+/* Nothing is added later, so that no chunk needs room for more. */
 dem_status hdf5_write(const hdf5_file *file, hdf5_rows rows, hsize_t count, const void *data)
 {
-    rows.chunk = count;
+    const size_t size = (size_t)width_of(&rows) * H5Tget_size(hdf5_memory_type(rows.kind));
+    if (rows.chunk == 0 || rows.chunk > count) rows.chunk = count;
     TRY(hdf5_create(file, &rows));
-    return hdf5_append(file, &rows, 0, count, data);
+    if (count == 0) return hdf5_append(file, &rows, 0, 0, data);
+    for (hsize_t first = 0; first < count; first += rows.chunk) {
+        const hsize_t n = count - first < rows.chunk ? count - first : rows.chunk;
+        TRY(hdf5_append(file, &rows, first, n, (const char *)data + (size_t)first * size));
+    }
+    return DEM_OK;
 }
 
 /* A dataset of another shape counts as having no rows; hdf5_expect_rows() will refuse it. */

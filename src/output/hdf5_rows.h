@@ -46,7 +46,7 @@ dem_status hdf5_read(const hdf5_file *file, const hdf5_rows *rows, hsize_t first
 /** Copies rows of a dataset to the end of that in another file, a chunk at a time. */
 dem_status hdf5_copy(const hdf5_file *from, const hdf5_file *to, const hdf5_rows *rows, hdf5_span span);
 
-/** Makes a dataset with `count` rows in one chunk. */
+/** Makes a dataset with `count` rows, in chunks of rows.chunk; in one where that is 0, or more. */
 dem_status hdf5_write(const hdf5_file *file, hdf5_rows rows, hsize_t count, const void *data);
 
 dem_status hdf5_count_rows(const hdf5_file *file, const char *name, hsize_t *count);

@@ -205,6 +205,23 @@ TEST_WITH(numbers_are_stored_little_endian_in_their_own_width, NULL, scratch_swe
     assert_true(H5Tequal(hdf5_memory_type(HDF5_I8), H5T_NATIVE_INT64) > 0);
 }
 
+TEST_WITH(rows_are_written_chunk_by_chunk, NULL, scratch_sweep)
+{
+    const double value[10] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0};
+    CLEANUP(finish) hdf5_file file = open_new();
+    for (int deflate = 0; deflate < 2; deflate++) {
+        const hdf5_rows rows = {deflate ? "/deflated" : "/plain", HDF5_F64, 2, {2, 0}, 2, deflate};
+        double back[10] = {0.0};
+        assert_ok(hdf5_write(&file, rows, 5, value));
+        assert_ok(hdf5_read(&file, &rows, 0, 5, back));
+        assert_memory_equal(back, value, sizeof value);
+        const table t = look(&file, rows.name);
+        assert_int_equal(t.chunk[0], 2);
+        assert_int_equal(t.extent[0], 5);
+        (void)H5Tclose(t.type);
+    }
+}
+
 TEST_WITH(a_chunk_has_the_rows_asked_for, NULL, scratch_sweep)
 {
     const double value[6] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
