@@ -16,15 +16,12 @@
 /* The shortest struct that is accepted ends with `velocity`, the last member of the first version. */
 static const struct_kind kind = {"dem_lattice", STRUCT_SIZE_WITH(dem_lattice, velocity), sizeof(dem_lattice)};
 
-/* Checks a list of tuples of `arity` nodes: springs have 2, triangles 3. */
-static dem_status check_corners(const char *what, dem_index n, int arity, const dem_index *corner, dem_index n_nodes)
+/* A list of tuples of `arity` nodes: springs have 2, triangles 3. */
+static dem_status check_list_of(const char *what, dem_index n, int arity, const dem_index *corner, dem_index n_nodes)
 {
     CHECK(n >= 0, DEM_ERROR_ARGUMENT, "the number of %ss is negative: %lld", what, (long long)n);
     CHECK(n == 0 || corner != NULL, DEM_ERROR_ARGUMENT, "%lld %ss, but their nodes are NULL", (long long)n, what);
-    for (dem_index k = 0; k < n * arity; k++)
-        CHECK(corner[k] >= 0 && corner[k] < n_nodes, DEM_ERROR_MODEL, "%s %lld has node %lld, but there are %lld nodes",
-              what, (long long)(k / arity), (long long)corner[k], (long long)n_nodes);
-    return DEM_OK;
+    return lattice_check_corners(what, arity, corner, 0, n, n_nodes);
 }
 
 /* ---- moving ---- */
@@ -47,6 +44,15 @@ void *lattice_zeros(dem_index n, size_t size)
     return calloc(n > 0 ? (size_t)n : 1, size);
 }
 
+dem_status lattice_check_corners(const char *what, int arity, const dem_index *corner, dem_index first, dem_index n,
+                                 dem_index n_nodes)
+{
+    for (dem_index k = 0; k < n * arity; k++)
+        CHECK(corner[k] >= 0 && corner[k] < n_nodes, DEM_ERROR_MODEL, "%s %lld has node %lld, but there are %lld nodes",
+              what, (long long)(first + k / arity), (long long)corner[k], (long long)n_nodes);
+    return DEM_OK;
+}
+
 /* Numbers and arrays first, then the node numbers in them; masses and other values are not looked at. */
 dem_status lattice_check(const dem_lattice *lattice)
 {
@@ -56,10 +62,10 @@ dem_status lattice_check(const dem_lattice *lattice)
           (long long)lattice->n_nodes);
     CHECK(lattice->n_nodes == 0 || lattice->x != NULL, DEM_ERROR_ARGUMENT, "%lld nodes, but x is NULL",
           (long long)lattice->n_nodes);
-    TRY(check_corners("spring", lattice->n_springs, 2, lattice->ends, lattice->n_nodes));
+    TRY(check_list_of("spring", lattice->n_springs, 2, lattice->ends, lattice->n_nodes));
     CHECK(lattice->n_springs == 0 || (lattice->rest_length != NULL && lattice->stiffness != NULL), DEM_ERROR_ARGUMENT,
           "%lld springs, but rest_length or stiffness is NULL", (long long)lattice->n_springs);
-    return check_corners("triangle", lattice->n_triangles, 3, lattice->triangles, lattice->n_nodes);
+    return check_list_of("triangle", lattice->n_triangles, 3, lattice->triangles, lattice->n_nodes);
 }
 
 bool lattice_has_couplings(const dem_lattice *lattice)

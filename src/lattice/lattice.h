@@ -13,6 +13,12 @@
  * not negative, arrays present, node indices in range. */
 dem_status lattice_check(const dem_lattice *lattice);
 
+/** Whether n tuples of nodes, springs (of 2) or triangles (of 3) from number `first` on, name nodes that there are.
+ *  \param what    "spring" or "triangle", for messages
+ *  \param corner  [n][arity] */
+dem_status lattice_check_corners(const char *what, int arity, const dem_index *corner, dem_index first, dem_index n,
+                                 dem_index n_nodes);
+
 /* Copies a caller's lattice struct, of whatever version; members that it does not have are NULL. Arrays are not
  * copied. */
 dem_status lattice_read(dem_lattice *ours, const dem_lattice *theirs);

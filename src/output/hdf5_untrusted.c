@@ -264,6 +264,17 @@ static dem_status check_virtual(const hdf5_file *file, const char *name, hid_t d
     return DEM_OK;
 }
 
+/* HDF5 unpacks whole chunks, and reads what is not packed row by row. */
+static hsize_t measure_unit(hid_t dataset)
+{
+    hsize_t extent[HDF5_MAX_RANK] = {1};
+    const hid_t layout = H5Dget_create_plist(dataset);
+    const bool is_packed = H5Pget_layout(layout) == H5D_CHUNKED && H5Pget_nfilters(layout) > 0 &&
+                           H5Pget_chunk(layout, HDF5_MAX_RANK, extent) >= 0;
+    (void)H5Pclose(layout);
+    return is_packed ? extent[0] : 1;
+}
+
 /* Type, virtual storage, extent, number of items, other storage: in this order nothing depends on what has not been
  * checked. */
 static dem_status measure(const hdf5_file *file, const char *name, hid_t dataset, hdf5_kind kind,
@@ -278,6 +289,7 @@ static dem_status measure(const hdf5_file *file, const char *name, hid_t dataset
     if (misfit != NULL) return hdf5_untrusted_refuse(file, name, misfit);
     TRY(check_virtual(file, name, dataset));
     measure_extent(dataset, out);
+    out->unit = measure_unit(dataset);
     if (out->rank == 0) return DEM_OK;
     TRY(count_numbers(file, name, out, &n));
     return check_storage(file, name, dataset, size, n);

@@ -16,6 +16,7 @@ typedef struct hdf5_untrusted_shape {
     hdf5_kind stored;              /**< type of the numbers in the file, or the nearest one of ours */
     int rank;                      /**< 1 to 3; 0: another shape, which is none of this library's */
     hsize_t extent[HDF5_MAX_RANK]; /**< 1 beyond the rank */
+    hsize_t unit;                  /**< rows that are unpacked together: those of a chunk with filters, else 1 */
 } hdf5_untrusted_shape;
 
 /** Rows of a dataset. */
