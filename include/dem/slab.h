@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** dem/slab.h -- a lattice made in slabs, so that none of several processes has to have the whole of it. */
+/** dem/slab.h -- a lattice made in slabs, so that none of several processes has to have the whole of it. Slabs of a
+ *  file are read by dem_slab_read() of dem/trajectory.h. */
 #ifndef DEM_SLAB_H
 #define DEM_SLAB_H
 
@@ -11,19 +12,20 @@ extern "C" {
 #endif
 
 /** What a range of the nodes of a whole lattice has of it: these nodes, its *own* ones, the nodes that share a
- *  triangle with one of them, its *rim*, and the triangles at own nodes. Both have the order of the whole, own nodes
- *  and triangles without gaps. The lattice is assembled and edited as any other, by functions that look at nodes and
- *  triangles one by one (dem_lattice_assemble(), and dem_lattice_inside() with dem_lattice_assemble_mixed();
- *  dem_lattice_move(), dem_lattice_launch(), dem_lattice_spin_about(), dem_lattice_exclude(); dem_lattice_weibull()
- *  with numbers). Own nodes, and springs and triangles at them, then have the bits that they have in the whole. Of the
- *  rim only places and bodies have: masses, flags, and springs between two of its nodes, lack what other ranges have of
- *  them. Numbers in messages are those of the slab. */
+ *  triangle or a spring with one of them, its *rim*, and the triangles at own nodes. Both have the order of the whole,
+ *  own nodes without gaps, and triangles too, but for some slabs of files. The lattice is assembled and edited as any
+ *  other, by functions that look at nodes and triangles one by one (dem_lattice_assemble(), and dem_lattice_inside() with
+ *  dem_lattice_assemble_mixed(); dem_lattice_move(), dem_lattice_launch(), dem_lattice_spin_about(),
+ *  dem_lattice_exclude(); dem_lattice_weibull() with numbers). Own nodes, and springs and triangles at them, then have
+ *  the bits that they have in the whole. Of the rim only places and bodies have: masses, flags, and springs between two
+ *  of its nodes, lack what other ranges have of them. Numbers in messages are those of the slab. */
 typedef struct dem_slab {
     size_t struct_size;       /**< set by dem_slab_empty() */
     dem_index n_nodes;        /**< of the whole, */
     dem_index n_triangles;    /**< likewise */
     dem_index first_node;     /**< the number in the whole of the first own node; the others follow it there */
-    dem_index first_triangle; /**< the number in the whole of triangle 0 of `lattice`; the others follow it there */
+    dem_index first_triangle; /**< the number in the whole of triangle 0 of `lattice`; the others follow it there. In a
+                                   slab of a file it is -1 if they do not, or if there are none */
     dem_index first_own;      /**< in `lattice`, of the n_own nodes that are own ones, one behind the other */
     dem_index n_own;          /**< > 0 */
     dem_index *rim; /**< [lattice.n_nodes - n_own] numbers in the whole of the other nodes of `lattice`, ascending */

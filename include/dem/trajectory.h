@@ -145,6 +145,23 @@ DEM_API dem_status dem_lattice_read(dem_lattice *out, const char *path);
  *  \return as dem_lattice_read() */
 DEM_API dem_status dem_lattice_measure(const char *path, dem_index *n_nodes, dem_index *n_springs);
 
+/** Reads what a slab (dem/slab.h) has of the group /lattice, by the checks of dem_lattice_read(). The nodes of the file
+ *  are n_parts ranges, each of as many nodes as the others, or one more; the own nodes of the slab are number `part` of
+ *  these. It has their springs and triangles, and all arrays that the file has, of its rim too: it is assembled, and fit
+ *  for dem_model_create_mpi_slab(). Where the file has no list of contact nodes these are known of own nodes only; it
+ *  has no rim_boundary.
+ *  All springs and triangles of the file are looked at, 65536 at a time, or a chunk of a dataset whose deflated chunks
+ *  are larger; besides that memory is taken for the slab, and a list of its nodes, springs and triangles.
+ *  Each rank reads its slab by itself. Where that fails on some, all can go on to dem_model_create_mpi_slab(), which
+ *  fails on all if a slab is empty.
+ *  \param[out] out  from dem_slab_empty(); overwritten, not freed; caller owns it
+ *  \param part      0 <= part < n_parts
+ *  \return as dem_lattice_read(), but numbers that the slab does not have are not looked at, except those of nodes;
+ *          DEM_ERROR_MODEL also for more parts than nodes, and, on all ranks, where springs or triangles are not in
+ *          ascending order of their lowest nodes, with the first one: a model of slabs numbers them in that order. All
+ *          lattices that this library makes have it, but for triangles of meshes by Gmsh */
+DEM_API dem_status dem_slab_read(dem_slab *out, const char *path, dem_index part, dem_index n_parts);
+
 /** For a program that uses HDF5 through this library only, as its first call of it: HDF5 then does not clean up at the
  *  exit of the process, where version 1.10 crashes if a file could not be written or closed. By then all are closed. */
 DEM_API void dem_hdf5_skip_exit(void);

@@ -926,18 +926,20 @@ class dem_mesh(SizedStructure):
 
 class dem_slab(SizedStructure):
     """What a range of the nodes of a whole lattice has of it: these nodes, its *own* ones, the nodes that share a
-    triangle with one of them, its *rim*, and the triangles at own nodes. Both have the order of the whole, own nodes
-    and triangles without gaps. The lattice is assembled and edited as any other, by functions that look at nodes and
-    triangles one by one (dem_lattice_assemble(), and dem_lattice_inside() with dem_lattice_assemble_mixed();
-    dem_lattice_move(), dem_lattice_launch(), dem_lattice_spin_about(), dem_lattice_exclude(); dem_lattice_weibull()
-    with numbers). Own nodes, and springs and triangles at them, then have the bits that they have in the whole. Of
-    the rim only places and bodies have: masses, flags, and springs between two of its nodes, lack what other ranges
-    have of them. Numbers in messages are those of the slab.
+    triangle or a spring with one of them, its *rim*, and the triangles at own nodes. Both have the order of the
+    whole, own nodes without gaps, and triangles too, but for some slabs of files. The lattice is assembled and
+    edited as any other, by functions that look at nodes and triangles one by one (dem_lattice_assemble(), and
+    dem_lattice_inside() with dem_lattice_assemble_mixed(); dem_lattice_move(), dem_lattice_launch(),
+    dem_lattice_spin_about(), dem_lattice_exclude(); dem_lattice_weibull() with numbers). Own nodes, and springs and
+    triangles at them, then have the bits that they have in the whole. Of the rim only places and bodies have:
+    masses, flags, and springs between two of its nodes, lack what other ranges have of them. Numbers in messages are
+    those of the slab.
     struct_size: set by dem_slab_empty()
     n_nodes: of the whole,
     n_triangles: likewise
     first_node: the number in the whole of the first own node; the others follow it there
-    first_triangle: the number in the whole of triangle 0 of `lattice`; the others follow it there
+    first_triangle: the number in the whole of triangle 0 of `lattice`; the others follow it there. In a slab of a file
+        it is -1 if they do not, or if there are none
     first_own: in `lattice`, of the n_own nodes that are own ones, one behind the other
     n_own: > 0
     rim: [lattice.n_nodes - n_own] numbers in the whole of the other nodes of `lattice`, ascending
@@ -1846,6 +1848,22 @@ FUNCTIONS: dict[str, tuple[Any, list[Any], str]] = {  # result, arguments, text
         """dem_lattice_measure(path, n_nodes, n_springs)
         How large the lattice of such a file is: the same checks, but for those of its numbers, which are not read.
         Returns as dem_lattice_read()"""),
+    "dem_slab_read": (c_int, [POINTER(dem_slab), c_char_p, c_int64, c_int64],
+        """dem_slab_read(out, path, part, n_parts)
+        Reads what a slab (dem/slab.h) has of the group /lattice, by the checks of dem_lattice_read(). The nodes of
+        the file are n_parts ranges, each of as many nodes as the others, or one more; the own nodes of the slab are
+        number `part` of these. It has their springs and triangles, and all arrays that the file has, of its rim too:
+        it is assembled, and fit for dem_model_create_mpi_slab(). Where the file has no list of contact nodes these
+        are known of own nodes only; it has no rim_boundary. All springs and triangles of the file are looked at,
+        65536 at a time, or a chunk of a dataset whose deflated chunks are larger; besides that memory is taken for
+        the slab, and a list of its nodes, springs and triangles. Each rank reads its slab by itself. Where that
+        fails on some, all can go on to dem_model_create_mpi_slab(), which fails on all if a slab is empty.
+        out from dem_slab_empty(); overwritten, not freed; caller owns it
+        part 0 <= part < n_parts
+        Returns as dem_lattice_read(), but numbers that the slab does not have are not looked at, except those of
+        nodes; DEM_ERROR_MODEL also for more parts than nodes, and, on all ranks, where springs or triangles are not
+        in ascending order of their lowest nodes, with the first one: a model of slabs numbers them in that order.
+        All lattices that this library makes have it, but for triangles of meshes by Gmsh"""),
     "dem_hdf5_skip_exit": (None, [],
         """dem_hdf5_skip_exit()
         For a program that uses HDF5 through this library only, as its first call of it: HDF5 then does not clean up

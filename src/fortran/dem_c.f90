@@ -1579,6 +1579,13 @@ module dem_c
       integer(dem_index), intent(out) :: n_nodes, n_springs
     end function
 
+    integer(dem_status) function dem_slab_read(out, path, part, n_parts) bind(c)
+      import
+      type(dem_slab), intent(inout) :: out
+      character(kind=c_char), intent(in) :: path(*)
+      integer(dem_index), value :: part, n_parts
+    end function
+
     subroutine dem_hdf5_skip_exit() bind(c)
       import
     end subroutine

@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Ranks that are processes, each with a slab of a block, of a disc with a hole, or of two blocks that hit each other,
- * which fall on a floor: positions, velocities, energies and surfaces have the bits of one process that has the whole.
- * `mpirun -n N test_slabs`. */
+ * which fall on a floor: positions, velocities, energies and surfaces have the bits of one process that has the whole,
+ * whether slabs are made or read from the output of a run of the whole. `mpirun -n N test_slabs`. */
+#include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
+
+#include <dem/trajectory.h>
 
 #include "rank_test.h"
 
@@ -141,45 +145,108 @@ static void compare(const seen *shared, const seen *alone, dem_index n, int rank
     INSIST(alone->counts.events > 10);
 }
 
-/* \param whole  is freed */
-static void check(dem_options options, dem_lattice whole, dem_slab slab, team t)
+static const double points[] = {-0.1, 0.0, 0.0, 2e-4, 0.1, 0.0};
+static const dem_obstacle floor_below = {
+    .struct_size = sizeof floor_below, .n_points = 3, .points = points, .restitution = 0.5, .friction = 0.3};
+
+/* Runs the whole by itself, and the slab together with those of other ranks. */
+static void check(const dem_options *options, const dem_lattice *whole, dem_slab *slab, team t)
 {
-    const double points[] = {-0.1, 0.0, 0.0, 2e-4, 0.1, 0.0};
-    const dem_obstacle floor = {
-        .struct_size = sizeof floor, .n_points = 3, .points = points, .restitution = 0.5, .friction = 0.3};
     dem_model *model = NULL;
-    INSIST(dem_model_create(&model, &whole, &floor, 1) == DEM_OK);
-    seen alone = run(model, &options, whole.n_nodes);
+    INSIST(dem_model_create(&model, whole, &floor_below, 1) == DEM_OK);
+    seen alone = run(model, options, whole->n_nodes);
     dem_model_destroy(model);
-    INSIST(dem_model_create_mpi_slab(&model, &slab, &floor, 1, &options, MPI_COMM_WORLD) == DEM_OK);
-    INSIST(is_empty(&slab));
-    seen shared = run(model, &options, whole.n_nodes);
+    INSIST(dem_model_create_mpi_slab(&model, slab, &floor_below, 1, options, MPI_COMM_WORLD) == DEM_OK);
+    INSIST(is_empty(slab));
+    seen shared = run(model, options, whole->n_nodes);
     dem_model_destroy(model);
-    compare(&shared, &alone, whole.n_nodes, t.rank);
-    INSIST(options.bodies == DEM_BODIES_NONE || shared.surfaces.pushing > 0);
-    dem_lattice_free(&whole);
+    compare(&shared, &alone, whole->n_nodes, t.rank);
+    INSIST(options->bodies == DEM_BODIES_NONE || shared.surfaces.pushing > 0);
     free(alone.x);
     free(alone.v);
     free(shared.x);
     free(shared.v);
 }
 
-static void check_one(dem_method method, const dem_shape *shape, team t)
+static dem_options options_of(dem_method method)
 {
     dem_options options = dem_options_default();
     options.method = method;
-    check(options, make_whole(shape), make_slab(shape, t), t);
+    return options;
+}
+
+static void check_made(dem_method method, const dem_shape *shape, team t)
+{
+    const dem_options options = options_of(method);
+    dem_lattice whole = make_whole(shape);
+    dem_slab slab = make_slab(shape, t);
+    check(&options, &whole, &slab, t);
+    dem_lattice_free(&whole);
 }
 
 static void check_two(dem_method method, team t)
 {
-    dem_options options = dem_options_default();
+    dem_options options = options_of(method);
     dem_lattice whole = make_blocks();
-    options.method = method;
+    dem_slab slab = cut_slab(&whole, t);
     options.bodies = DEM_BODIES_ALL;
     options.contact_friction = 0.4;
-    check(options, whole, cut_slab(&whole, t), t);
+    check(&options, &whole, &slab, t);
+    dem_lattice_free(&whole);
 }
+
+/* ---- slabs of a file ---- */
+
+/* The body as the output of a run has it. */
+static void write_output(const char *path, const dem_shape *shape)
+{
+    const dem_trajectory_options none = dem_trajectory_options_default();
+    const dem_options options = dem_options_default();
+    dem_lattice whole = make_whole(shape);
+    dem_model *model = NULL;
+    dem_simulation *simulation = NULL;
+    dem_trajectory *output = NULL;
+    INSIST(dem_model_create(&model, &whole, NULL, 0) == DEM_OK);
+    INSIST(dem_simulation_create(&simulation, model, &options) == DEM_OK);
+    INSIST(dem_trajectory_create(&output, path, simulation, &none) == DEM_OK);
+    INSIST(dem_trajectory_finish(output) == DEM_OK);
+    dem_trajectory_destroy(output);
+    dem_simulation_destroy(simulation);
+    dem_model_destroy(model);
+    dem_lattice_free(&whole);
+}
+
+/* Where one rank has no slab none has a model. */
+static void refuse_unread(const char *path, team t)
+{
+    dem_model *model = NULL;
+    dem_slab slab = dem_slab_empty();
+    const dem_status status = dem_slab_read(&slab, t.rank == t.size - 1 ? "none.h5" : path, t.rank, t.size);
+    INSIST(status == (t.rank == t.size - 1 ? DEM_ERROR_IO : DEM_OK));
+    INSIST(dem_model_create_mpi_slab(&model, &slab, NULL, 0, NULL, MPI_COMM_WORLD) == DEM_ERROR_ARGUMENT);
+    INSIST(model == NULL);
+    dem_slab_free(&slab);
+}
+
+static void check_read(dem_method method, const dem_shape *shape, team t)
+{
+    char path[64];
+    const dem_options options = options_of(method);
+    dem_lattice whole = dem_lattice_empty();
+    dem_slab slab = dem_slab_empty();
+    (void)snprintf(path, sizeof path, "mpi_slabs_%d.vtkhdf", t.size); /* tests of other numbers run beside this one */
+    if (t.rank == 0) write_output(path, shape);
+    (void)MPI_Barrier(MPI_COMM_WORLD);
+    INSIST(dem_lattice_read(&whole, path) == DEM_OK && dem_slab_read(&slab, path, t.rank, t.size) == DEM_OK);
+    INSIST(t.size == 1 || slab.lattice.n_nodes < whole.n_nodes);
+    check(&options, &whole, &slab, t);
+    refuse_unread(path, t);
+    (void)MPI_Barrier(MPI_COMM_WORLD);
+    INSIST(t.rank != 0 || unlink(path) == 0);
+    dem_lattice_free(&whole);
+}
+
+/* ---- what is refused ---- */
 
 /* On all ranks, whichever has it. */
 static void refuse(dem_slab *slab, dem_status status, const char *message)
@@ -203,11 +270,13 @@ static void refuse_all(team t)
 int main(int argc, char **argv)
 {
     const team t = rank_test_begin(&argc, &argv);
-    check_one(DEM_METHOD_FEHLBERG45, NULL, t);
-    check_one(DEM_METHOD_VERLET, NULL, t);
-    check_one(DEM_METHOD_VERLET, &holed, t);
+    check_made(DEM_METHOD_FEHLBERG45, NULL, t);
+    check_made(DEM_METHOD_VERLET, NULL, t);
+    check_made(DEM_METHOD_VERLET, &holed, t);
     check_two(DEM_METHOD_FEHLBERG45, t);
     check_two(DEM_METHOD_VERLET, t);
+    check_read(DEM_METHOD_FEHLBERG45, &holed, t);
+    check_read(DEM_METHOD_VERLET, NULL, t);
     refuse_all(t);
     (void)MPI_Finalize();
     return 0;

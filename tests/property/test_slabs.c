@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The slabs of a lattice are what the whole has at their nodes, to the bit, and each node is one slab's own: random
  * rectangles, discs, rings, polygons and images, less voids and pores, of triangles and squares, jittered or not, in 1
- * to 9 parts, as they are made and as solids of two materials.
+ * to 9 parts, as they are made and as solids of two materials. So are the slabs of files, which end anywhere in a row.
  * `test_slabs [CASES [FIRST_SEED]]`. */
 #include "verification/support.h"
 
+#include <dem/trajectory.h>
+
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <gsl/gsl_rng.h>
 
@@ -14,6 +17,7 @@
 #include "harness/cleanup_gsl.h"
 #include "lattice/lattice_arrays.h"
 #include "lattice/mesh_edges.h"
+#include "output/lattice_file.h"
 
 static long n_cases = 20000, first_seed = 1;
 
@@ -226,21 +230,29 @@ static void assert_same_nodes(const dem_lattice *whole, const dem_slab *s, dem_i
         assert_same_item(whole, number_of(s, i), &s->lattice, i, LATTICE_NODES);
 }
 
-/* The nodes next to own ones in triangles, and whether they are on the boundary. */
+/* Marks all nodes of what has an own one.  \param corner  [n][arity] */
+static void mark_next(bool *is_next, const dem_slab *s, const dem_index *corner, int arity, dem_index n)
+{
+    for (dem_index k = 0; k < n; k++)
+        for (int c = 0; c < arity && any_is_own(s, corner + arity * k, arity); c++)
+            is_next[corner[arity * k + c]] = true;
+}
+
+/* The nodes next to own ones in springs and triangles, and whether they are on the boundary, if that is known. */
 static void assert_same_rim(const dem_lattice *whole, const dem_slab *s)
 {
     bool *is_rim = calloc((size_t)whole->n_nodes, sizeof *is_rim);
     unsigned char *boundary = calloc((size_t)whole->n_nodes, sizeof *boundary);
     dem_index k = 0;
-    for (dem_index t = 0; t < whole->n_triangles; t++)
-        for (int c = 0; c < 3 && any_is_own(s, whole->triangles + 3 * t, 3); c++)
-            is_rim[whole->triangles[3 * t + c]] = true;
+    mark_next(is_rim, s, whole->ends, 2, whole->n_springs);
+    mark_next(is_rim, s, whole->triangles, 3, whole->n_triangles);
     assert_ok(mesh_edges_contact_flags(boundary, whole));
     for (dem_index i = 0; i < whole->n_nodes; i++) {
         if (!is_rim[i] || is_own(s, i)) continue;
         assert_true(k < s->lattice.n_nodes - s->n_own);
         assert_int_equal(s->rim[k], i);
-        assert_int_equal(s->rim_boundary[k++], boundary[i] != 0);
+        if (s->rim_boundary != NULL) assert_int_equal(s->rim_boundary[k], boundary[i] != 0);
+        k++;
     }
     assert_int_equal(k, s->lattice.n_nodes - s->n_own);
     free(is_rim);
@@ -250,15 +262,18 @@ static void assert_same_rim(const dem_lattice *whole, const dem_slab *s)
 /* All that are at own nodes, in the order of the whole, and no others. */
 static void assert_same_triangles(const dem_lattice *whole, const dem_slab *s)
 {
-    dem_index k = 0;
+    dem_index k = 0, first = -1, end = 0;
     for (dem_index t = 0; t < whole->n_triangles; t++) {
         if (!any_is_own(s, whole->triangles + 3 * t, 3)) continue;
-        assert_int_equal(t, s->first_triangle + k);
+        first = k == 0 ? t : first;
+        end = t + 1;
+        assert_true(k < s->lattice.n_triangles);
         for (int c = 0; c < 3; c++)
             assert_int_equal(number_of(s, s->lattice.triangles[3 * k + c]), whole->triangles[3 * t + c]);
         assert_same_item(whole, t, &s->lattice, k++, LATTICE_TRIANGLES);
     }
     assert_int_equal(k, s->lattice.n_triangles);
+    assert_int_equal(s->first_triangle, end - first == k ? first : -1);
 }
 
 /* The next spring of a slab from k on that is at an own node. */
@@ -314,6 +329,7 @@ static void compare(const recipe *r, dem_lattice *whole)
         assert_true(!r->is_shape || s.n_own <= whole->n_nodes / r->n_parts + 1 + found.largest);
         assert_same_nodes(whole, &s, &next);
         assert_same_rim(whole, &s);
+        assert_true(s.rim_boundary != NULL && s.first_triangle >= 0);
         assert_same_triangles(whole, &s);
         assemble(&s.lattice, r);
         assert_same_nodes(&solid, &s, &next_solid);
@@ -342,6 +358,79 @@ TEST(slabs_are_the_rows_of_the_whole)
 {
     for (long k = 0; k < n_cases; k++) check((unsigned long)(first_seed + k));
     assert_true(n_shapes > n_cases / 5);
+}
+
+/* ---- slabs of files ---- */
+
+static const char path[] = "property_slabs.h5";
+static long n_gaps; /* slabs whose triangles do not follow each other in the whole */
+
+/* Some of what a lattice can have besides. */
+static void decorate(dem_lattice *l, gsl_rng *random)
+{
+    CLEANUP(dem_lattice_free) dem_lattice other = dem_lattice_empty();
+    if (toss(random)) assert_ok(dem_lattice_launch(l, (const double[2]){1.0, -2.0}));
+    if (toss(random)) {
+        l->position = malloc(2 * (size_t)l->n_nodes * sizeof *l->position);
+        for (dem_index k = 0; k < 2 * l->n_nodes; k++) l->position[k] = l->x[k] + from(random, 0.0, 1e-5);
+    }
+    if (toss(random)) assert_ok(dem_lattice_spin(l, from(random, -1.0, 1.0)));
+    if (toss(random)) assert_ok(dem_lattice_exclude(l, (const dem_index[]){l->n_nodes / 2}, 1));
+    if (gsl_rng_uniform_int(random, 4) == 0) assert_ok(dem_lattice_stiffen(l, DEM_GUIDE_X));
+    if (gsl_rng_uniform_int(random, 4) == 0) {
+        assert_ok(dem_lattice_append(&other, l));
+        assert_ok(dem_lattice_append(l, &other));
+    }
+}
+
+static void write_file(const dem_lattice *l, int deflate)
+{
+    hdf5_file file;
+    assert_ok(hdf5_open_new(&file, path, 4096));
+    assert_ok(hdf5_close(&file, lattice_file_write(&file, l, deflate)));
+}
+
+/* Also nodes of the rim have all that is in the file. */
+static void compare_file(const dem_lattice *l, dem_index n_parts)
+{
+    dem_index next = 0;
+    for (dem_index part = 0; part < n_parts; part++) {
+        CLEANUP(dem_slab_free) dem_slab s = dem_slab_empty();
+        assert_ok(dem_slab_read(&s, path, part, n_parts));
+        assert_true(s.n_own == l->n_nodes / n_parts || s.n_own == l->n_nodes / n_parts + 1);
+        assert_same_nodes(l, &s, &next);
+        for (dem_index i = 0; i < s.lattice.n_nodes; i++)
+            assert_same_item(l, number_of(&s, i), &s.lattice, i, LATTICE_NODES);
+        assert_same_rim(l, &s);
+        assert_same_triangles(l, &s);
+        assert_same_springs(l, &s);
+        n_gaps += s.first_triangle < 0;
+    }
+    assert_int_equal(next, l->n_nodes);
+}
+
+static void check_file(unsigned long seed)
+{
+    CLEANUP(free_rng) gsl_rng *random = gsl_rng_alloc(gsl_rng_taus);
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
+    recipe r;
+    gsl_rng_set(random, seed);
+    draw(&r, random);
+    if (toss(random)) r.solids[0].strength = r.solids[1].strength = 1e6;
+    if (make_whole(&l, &r) != DEM_OK) return;
+    assert_ok(dem_lattice_jitter(&l, r.jitter, r.seed));
+    assemble(&l, &r);
+    decorate(&l, random);
+    write_file(&l, (int)gsl_rng_uniform_int(random, 2));
+    const dem_index n_parts = 1 + (dem_index)gsl_rng_uniform_int(random, 7);
+    compare_file(&l, toss(random) || n_parts > l.n_nodes ? l.n_nodes / 2 : n_parts);
+}
+
+TEST(slabs_of_files_are_what_the_whole_has)
+{
+    for (long k = 0; k < n_cases; k += 100) check_file((unsigned long)(first_seed + k));
+    assert_true(n_gaps > n_cases / 100);
+    assert_int_equal(unlink(path), 0);
 }
 
 int main(int n_arguments, char **arguments)

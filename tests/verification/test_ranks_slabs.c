@@ -1,15 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Ranks that make slabs of a lattice which nobody has run it with the bits of the whole in one process: free, and
- * falling on obstacles, with all events and the ledger; rectangles, and what is cut out of rows. */
+ * falling on obstacles, with all events and the ledger; rectangles, what is cut out of rows, and what is read from a
+ * file, in slabs that end anywhere in a row. */
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "slab_runs.h"
 #include "support.h"
 
+#include <dem/trajectory.h>
+
 #include "harness/message.h"
+#include "output/lattice_file.h"
 
 enum { FLOOR_POINTS = 61 };
 
+static const char path[] = "verify_ranks_slabs.h5";
 static const double spacing = 2.5e-3, width = 0.07, height = 0.045;
 
 /* ---- scenes ---- */
@@ -22,7 +29,8 @@ typedef struct kind {
     double damping_time;    /* s, of springs */
     dem_springs springs;
     dem_method method;
-    int rings; /* of ghosts, at most, if they are no more than all nodes; 0: as many as there is a use for */
+    bool is_read; /* the slabs are those of a file */
+    int rings;    /* of ghosts, at most, if they are no more than all nodes; 0: as many as there is a use for */
 } kind;
 
 typedef struct scene {
@@ -89,6 +97,10 @@ static dem_slab make_slab(const void *of, int part, int n_parts)
     const scene *s = of;
     const kind *k = s->kind;
     dem_slab slab = dem_slab_empty();
+    if (k->is_read) {
+        assert_ok(dem_slab_read(&slab, path, part, n_parts));
+        return slab;
+    }
     assert_ok(triangulate_part(&slab, k, part, n_parts));
     assert_ok(dem_slab_jitter(&slab, k->jitter * spacing, 5));
     finish_block(&slab.lattice, k, s->lift);
@@ -105,11 +117,19 @@ static void make_floor(scene *s)
                                    .friction = 0.4);
 }
 
+static void write_file(const dem_lattice *l)
+{
+    hdf5_file file;
+    assert_ok(hdf5_open_new(&file, path, 4096));
+    assert_ok(hdf5_close(&file, lattice_file_write(&file, &(lattice_source){l, NULL}, 1)));
+}
+
 static void open_scene(scene *s, const kind *k)
 {
     CLEANUP(dem_lattice_free) dem_lattice flat = make_whole(k, 0.0);
     *s = (scene){.kind = k, .lift = 5e-4 - support_bottom(&flat)};
     CLEANUP(dem_lattice_free) dem_lattice l = make_whole(k, s->lift);
+    if (k->is_read) write_file(&l);
     make_floor(s);
     s->run = (rank_runs_scene){
         .model = support_model(&l, &s->floor, k->has_floor ? 1 : 0), .options = dem_options_default(), .t_end = 3e-4};
@@ -146,6 +166,7 @@ static void check(const kind *k)
     for (int n = 1; n <= 4; n++) slab_runs_assert_same(&runs, n, &whole);
     rank_runs_free_outcome(&whole);
     dem_model_destroy(s.run.model);
+    assert_true(!k->is_read || unlink(path) == 0);
 }
 
 TEST(a_free_block_in_slabs_moves_as_the_whole)
@@ -224,6 +245,33 @@ TEST(a_block_of_two_materials_in_slabs_moves_as_the_whole)
 {
     check(&(kind){.has_floor = true, .is_layered = true, .method = DEM_METHOD_VERLET, .damping_time = 1e-6});
     check(&(kind){.is_layered = true,
+                  .method = DEM_METHOD_FEHLBERG45,
+                  .jitter = 0.2,
+                  .springs = DEM_SPRINGS_COUPLED,
+                  .damping_time = 1e-6});
+}
+
+/* ---- what is read from a file ---- */
+
+TEST(a_block_in_slabs_of_a_file_moves_as_the_whole)
+{
+    check(&(kind){.is_read = true, .method = DEM_METHOD_VERLET, .is_square = true, .jitter = 0.2});
+    check(&(kind){.is_read = true,
+                  .method = DEM_METHOD_FEHLBERG45,
+                  .jitter = 0.3,
+                  .springs = DEM_SPRINGS_COUPLED,
+                  .damping_time = 1e-6});
+    check(&(kind){.is_read = true, .has_floor = true, .is_layered = true, .method = DEM_METHOD_VERLET, .rings = 4});
+}
+
+TEST(a_disc_in_slabs_of_a_file_falls_on_obstacles_as_the_whole)
+{
+    const dem_outline disc = SIZED(dem_outline, .kind = DEM_OUTLINE_DISC, .radius = 0.028, .centre = {0.003, 0.1});
+    const dem_outline hole = SIZED(dem_outline, .kind = DEM_OUTLINE_DISC, .radius = 0.009, .centre = {0.003, 0.09});
+    const dem_shape shape = SIZED(dem_shape, .outline = &disc, .spacing = spacing, .n_voids = 1, .voids = &hole);
+    check(&(kind){.is_read = true,
+                  .has_floor = true,
+                  .shape = &shape,
                   .method = DEM_METHOD_FEHLBERG45,
                   .jitter = 0.2,
                   .springs = DEM_SPRINGS_COUPLED,
