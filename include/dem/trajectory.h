@@ -147,9 +147,9 @@ DEM_API dem_status dem_lattice_measure(const char *path, dem_index *n_nodes, dem
 
 /** Reads what a slab (dem/slab.h) has of the group /lattice, by the checks of dem_lattice_read(). The nodes of the file
  *  are n_parts ranges, each of as many nodes as the others, or one more; the own nodes of the slab are number `part` of
- *  these. It has their springs and triangles, and all arrays that the file has, of its rim too: it is assembled, and fit
- *  for dem_model_create_mpi_slab(). Where the file has no list of contact nodes these are known of own nodes only; it
- *  has no rim_boundary.
+ *  these. It has their springs and triangles, and all arrays that the file has, of its rim too: it is assembled, and
+ *  fit for dem_model_create_mpi_slab(). Where the file has no list of contact nodes these are known of own nodes only;
+ *  it has no rim_boundary.
  *  All springs and triangles of the file are looked at, 65536 at a time, or a chunk of a dataset whose deflated chunks
  *  are larger; besides that memory is taken for the slab, and a list of its nodes, springs and triangles.
  *  Each rank reads its slab by itself. Where that fails on some, all can go on to dem_model_create_mpi_slab(), which
