@@ -132,22 +132,22 @@ static dem_status list_nodes(draft *d)
 
 /* ---- a slab ---- */
 
-/* Gives back what a list has grown by in vain. */
-static dem_index *shrink(numbers *from)
+/* Hands a list over, without what it has grown by in vain. */
+static dem_status give(numbers *from, void **to)
 {
-    dem_index *list = realloc(from->list, ((size_t)from->n + 1) * sizeof *list);
-    if (list == NULL) list = from->list;
+    *to = realloc(from->list, ((size_t)from->n + 1) * sizeof *from->list);
+    CHECK_MEMORY(*to);
     from->list = NULL;
-    return list;
+    return DEM_OK;
 }
 
 /* Nodes get the numbers of the slab. */
-static void finish_corners(draft *d, const scan *s)
+static dem_status finish_corners(draft *d, const scan *s)
 {
     const numbers *nodes = &d->found[LATTICE_NODES];
     numbers *corner = &d->corner[s->of];
     for (dem_index k = 0; k < corner->n; k++) corner->list[k] = sorted_find(nodes->list, nodes->n, corner->list[k]);
-    if (d->file.present[s->dataset]) d->file.data[s->dataset] = shrink(corner);
+    return d->file.present[s->dataset] ? give(corner, &d->file.data[s->dataset]) : DEM_OK;
 }
 
 /* Their numbers may have gaps. */
@@ -166,7 +166,7 @@ static dem_status read_rows(draft *d)
     TRY(lattice_datasets_read(&d->file));
     lattice_datasets_give(&d->file, &d->slab.lattice);
     d->slab.first_triangle = first_of(&d->found[LATTICE_TRIANGLES]);
-    d->slab.rim = shrink(&d->rim);
+    TRY(give(&d->rim, (void **)&d->slab.rim));
     return lattice_datasets_flags(&d->file, &d->slab.lattice);
 }
 
@@ -178,8 +178,8 @@ static dem_status read_slab(draft *d, dem_index part, dem_index n_parts)
     TRY(look_through(d, springs));
     TRY(look_through(d, triangles));
     TRY(list_nodes(d));
-    finish_corners(d, &springs);
-    finish_corners(d, &triangles);
+    TRY(finish_corners(d, &springs));
+    TRY(finish_corners(d, &triangles));
     return read_rows(d);
 }
 

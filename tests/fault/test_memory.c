@@ -136,6 +136,15 @@ static dem_status write_and_run(dem_simulation *simulation)
     return status;
 }
 
+/* Of the file that has been written. */
+static dem_status read_slab(void)
+{
+    CLEANUP(dem_slab_free) dem_slab slab = dem_slab_empty();
+    const dem_status status = dem_slab_read(&slab, "fault.vtkhdf", 1, 3);
+    assert_true(status == DEM_OK || (slab.lattice.x == NULL && slab.rim == NULL));
+    return status;
+}
+
 static dem_status run(void)
 {
     const dem_obstacle obstacle = {
@@ -164,6 +173,7 @@ static dem_status run(void)
     if (status == DEM_OK) status = measure(model);
     if (status == DEM_OK) status = dem_simulation_create(&simulation, model, &options);
     if (status == DEM_OK) status = write_and_run(simulation);
+    if (status == DEM_OK) status = read_slab();
     return status;
 }
 

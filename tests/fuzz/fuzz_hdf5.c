@@ -4,6 +4,7 @@
 
 #include "bytes.h"
 #include "scratch.h"
+#include "slabs.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -16,6 +17,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     require(status == DEM_OK || status == DEM_ERROR_IO || status == DEM_ERROR_MODEL || status == DEM_ERROR_MEMORY);
     require(status == DEM_OK || (lattice.x == NULL && strstr(dem_status_message(), "lattice.h5") != NULL));
     require(status != DEM_OK || (lattice.n_nodes > 0 && lattice.x != NULL && lattice.mass != NULL));
+    slabs_check(path, status == DEM_OK ? &lattice : NULL);
     dem_lattice_free(&lattice);
     return 0;
 }

@@ -8,6 +8,7 @@
 #include "bytes.h"
 #include "ask.h"
 #include "scratch.h"
+#include "slabs.h"
 
 enum { MOST_VALUES = 256, N_NAMES = 19 };
 
@@ -313,9 +314,11 @@ static void read_file(const char *path)
     require(status == DEM_OK || status == DEM_ERROR_IO || status == DEM_ERROR_MODEL);
     if (status != DEM_OK) {
         require(lattice.x == NULL && strstr(dem_status_message(), "lattice.h5") != NULL);
+        slabs_check(path, NULL);
         return;
     }
     check_lattice(&lattice);
+    slabs_check(path, &lattice);
     const dem_status made = dem_model_create(&model, &lattice, NULL, 0);
     require(made == DEM_OK || made == DEM_ERROR_MODEL);
     if (made == DEM_OK) start(model);
