@@ -83,7 +83,8 @@ DEM_API dem_status dem_model_create_mpi_for(dem_model **out, const dem_lattice *
  *  that are the slab's own. While it works a rank has besides what is near its slab, and what is near nodes that may
  *  touch obstacles, or surfaces of bodies that touch. Springs and triangles are numbered slab by slab, each in the one
  *  that owns the lowest of its nodes, in the order that they have there. That is the order of lattices which dem/slab.h
- *  makes slabs of: runs have the bits of one process that has such a lattice.
+ *  makes slabs of, and of files that dem_slab_read() reads slabs of: runs have the bits of one process that has such a
+ *  lattice.
  *  For elastic bodies of triangles, connected or not, which may touch each other and themselves; rigid ones, and those
  *  that may break, are refused. `body` has the numbers of the whole, of the rim too, and a slab may have parts of
  *  several bodies. A slab that was made, and jittered, of a body alone becomes one of the whole with n_nodes and

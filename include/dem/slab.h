@@ -14,8 +14,8 @@ extern "C" {
 /** What a range of the nodes of a whole lattice has of it: these nodes, its *own* ones, the nodes that share a
  *  triangle or a spring with one of them, its *rim*, and the triangles at own nodes. Both have the order of the whole,
  *  own nodes without gaps, and triangles too, but for some slabs of files. The lattice is assembled and edited as any
- *  other, by functions that look at nodes and triangles one by one (dem_lattice_assemble(), and dem_lattice_inside() with
- *  dem_lattice_assemble_mixed(); dem_lattice_move(), dem_lattice_launch(), dem_lattice_spin_about(),
+ *  other, by functions that look at nodes and triangles one by one (dem_lattice_assemble(), and dem_lattice_inside()
+ *  with dem_lattice_assemble_mixed(); dem_lattice_move(), dem_lattice_launch(), dem_lattice_spin_about(),
  *  dem_lattice_exclude(); dem_lattice_weibull() with numbers). Own nodes, and springs and triangles at them, then have
  *  the bits that they have in the whole. Of the rim only places and bodies have: masses, flags, and springs between two
  *  of its nodes, lack what other ranges have of them. Numbers in messages are those of the slab. */

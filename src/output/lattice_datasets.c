@@ -292,7 +292,7 @@ static dem_status mark_rigid(const lattice_datasets *d, dem_lattice *lattice)
     return DEM_OK;
 }
 
-dem_status lattice_datasets_flags(lattice_datasets *d, dem_lattice *lattice)
+dem_status lattice_datasets_flags(const lattice_datasets *d, dem_lattice *lattice)
 {
     const unsigned char *fixed = d->data[LATTICE_FIXED];
     const bool has_flags = fixed != NULL || d->data[LATTICE_RIGID] != NULL || d->present[LATTICE_CONTACT_NODES];

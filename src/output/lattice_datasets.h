@@ -90,7 +90,7 @@ void lattice_datasets_give(lattice_datasets *d, dem_lattice *lattice);
 /** Makes the flags of a lattice with these arrays, whose node numbers are known to be valid. Without the datasets there
  *  are none, which stands for the boundary and nothing fixed or rigid. Where not all is taken the boundary is that of
  *  the triangles that are, but none where only others have triangles. */
-dem_status lattice_datasets_flags(lattice_datasets *d, dem_lattice *lattice);
+dem_status lattice_datasets_flags(const lattice_datasets *d, dem_lattice *lattice);
 
 /** Rows that are read at a time, one piece behind the other: the next one, false behind the last.
  *  \param piece  at first no rows from 0 on */

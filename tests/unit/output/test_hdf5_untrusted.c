@@ -61,6 +61,24 @@ TEST_WITH(shape_and_numbers_are_found, open_stored, close_stored)
             "cannot be read");
 }
 
+TEST_WITH(rows_of_deflated_chunks_are_a_unit, open_stored, close_stored)
+{
+    const stored *s = *test_state;
+    static const struct {
+        hdf5_rows rows;
+        hsize_t unit;
+    } cases[] = {{{"/deflated", HDF5_F64, 1, {0}, 3, 1}, 3}, {{"/plain", HDF5_F64, 2, {2}, 3, 0}, 1}};
+    hdf5_untrusted_shape shape;
+    for (int k = 0; k < 2; k++) {
+        assert_ok(hdf5_write(&s->file, cases[k].rows, 5, numbers));
+        assert_ok(hdf5_untrusted_measure(&s->file, cases[k].rows.name, HDF5_F64, &shape));
+        assert_int_equal(shape.unit, cases[k].unit);
+    }
+    make(s, "/contiguous", H5T_IEEE_F64LE, H5Screate_simple(1, (hsize_t[1]){0}, NULL), H5P_DEFAULT);
+    assert_ok(hdf5_untrusted_measure(&s->file, "/contiguous", HDF5_F64, &shape));
+    assert_int_equal(shape.unit, 1);
+}
+
 TEST_WITH(a_number_that_does_not_fit_is_refused, open_stored, close_stored)
 {
     const stored *s = *test_state;
