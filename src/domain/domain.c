@@ -168,6 +168,7 @@ void domain_free(domain *d)
     free(d->is_ghost);
     free(d->is_common);
     free(d->is_outer);
+    free(d->boundary);
     *d = (domain){0};
 }
 

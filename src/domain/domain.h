@@ -31,7 +31,9 @@ typedef struct domain {
     unsigned char *is_ghost;          /* [n_nodes] 1: what it does comes from its owner; else it is integrated here */
     unsigned char *is_common;         /* [n_nodes] 1: it is integrated by all ranks */
     unsigned char *is_outer;          /* [n_nodes] 1: a ghost of the last ring: some of its neighbours are not here */
-    int n_rings;                      /* of ghosts */
+    dem_index n_boundary;
+    dem_index *boundary; /* [n_boundary] nodes integrated here on the boundary of the whole triangulation, ascending */
+    int n_rings;         /* of ghosts */
     int n_neighbours;
     domain_neighbour *neighbours; /* [n_neighbours] by rank */
 } domain;

@@ -74,13 +74,25 @@ static dem_status cut_boundary(mesh_boundary *out, const mesh_boundary *around, 
     return DEM_OK;
 }
 
+/* Those of nodes that are integrated here. */
+static dem_status list_boundary(domain *d, const mesh_boundary *cut)
+{
+    dem_index n = 0;
+    for (dem_index i = 0; i < d->n_nodes; i++) n += cut->outer[i] && !d->is_ghost[i];
+    d->boundary = malloc(((size_t)n + 1) * sizeof *d->boundary);
+    CHECK(d->boundary != NULL, DEM_ERROR_MEMORY, "out of memory for %lld nodes of the boundary", (long long)n);
+    for (dem_index i = 0; i < d->n_nodes; i++)
+        if (cut->outer[i] && !d->is_ghost[i]) d->boundary[d->n_boundary++] = i;
+    return DEM_OK;
+}
+
 static dem_status compile_boundary(const domain_cut *c, const numbers *q)
 {
-    mesh_boundary around;
+    mesh_boundary around, *const cut = &c->model->touching->boundary;
     TRY(mesh_boundary_create(&around, &c->around, NULL));
-    const dem_status status = cut_boundary(&c->model->touching->boundary, &around, q, c);
+    const dem_status status = cut_boundary(cut, &around, q, c);
     mesh_boundary_free(&around);
-    return status;
+    return status == DEM_OK ? list_boundary(c->model->domain, cut) : status;
 }
 
 /* What springs have of the triangles at them, of which one may be beside the domain. */

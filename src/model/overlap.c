@@ -2,73 +2,62 @@
 /* Finds bodies that run into each other or into themselves, which no force prevents: boundary nodes inside triangles of
  * which they are no corners. Boundary nodes are put into the cells of a grid, and each triangle looks at the nodes in
  * the cells that it reaches into; most of them are no larger than these, and so far from the boundary that this is seen
- * from one corner. The result is only reported; contact between bodies is not computed. */
+ * from one corner. Ranks that share a lattice know all boundary nodes, and pass over those that are beyond all of their
+ * triangles. The result is only reported; contact between bodies is not computed. */
 #include "model/overlap.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/grow.h"
-#include "base/sorted.h"
+#include "base/reduce.h"
 #include "base/status.h"
 #include "elastic/triangles.h"
 
 /* In units of a triangle's area: a node that only touches an edge is not inside. */
 static const double touching = 1e-9;
 
-dem_status overlap_reserve(overlap *o, const mesh_boundary *boundary)
+static dem_status reserve_next(overlap *o)
 {
-    CHECK(grow_array((void **)&o->nodes, &o->capacity, 2 * boundary->n, sizeof *o->nodes) &&
-              grow_array((void **)&o->next, &o->next_room, 2 * boundary->n, sizeof *o->next),
-          DEM_ERROR_MEMORY, "out of memory for %lld edges of the boundary", (long long)boundary->n);
+    CHECK(grow_array((void **)&o->next, &o->next_room, o->nodes.room, sizeof *o->next), DEM_ERROR_MEMORY,
+          "out of memory for %lld nodes of the boundary", (long long)o->nodes.room);
     return DEM_OK;
 }
 
-/* The ends of the edges, in the room that there is. A node that has lost all of its triangles is on no boundary any
- * more. */
-static void list_nodes(overlap *o, const mesh_boundary *boundary)
+dem_status overlap_reserve(overlap *o, const mesh_boundary *boundary)
 {
-    for (dem_index k = 0; k < boundary->n; k++) {
-        o->nodes[2 * k] = boundary->list[k].lower;
-        o->nodes[2 * k + 1] = boundary->list[k].upper;
-    }
-    o->n = sorted_make(o->nodes, 2 * boundary->n);
+    TRY(boundary_nodes_reserve(&o->nodes, boundary));
+    return reserve_next(o);
 }
 
 /* One for four triangles: each of these then looks into three cells in the mean, into six if there were as many as
  * triangles, and most of them are empty. */
 static dem_index count_cells(dem_index n_triangles)
 {
-    return (n_triangles + 3) / 4;
+    return n_triangles / 4 + 1;
 }
 
-static dem_status create(overlap *o, const mesh_boundary *boundary)
+static dem_status allocate(overlap *o, const dem_lattice *lattice)
 {
-    o->n_cells = count_cells(boundary->lattice->n_triangles);
-    if (o->n_cells == 0) return DEM_OK;
-    TRY(overlap_reserve(o, boundary));
+    o->n_cells = count_cells(lattice->n_triangles);
     o->first = malloc((size_t)o->n_cells * sizeof *o->first);
     CHECK_MEMORY(o->first);
-    o->place = malloc((size_t)boundary->lattice->n_nodes * sizeof *o->place);
+    o->place = malloc((size_t)lattice->n_nodes * sizeof *o->place);
     CHECK_MEMORY(o->place);
-    list_nodes(o, boundary);
-    return DEM_OK;
+    return reserve_next(o);
 }
 
-dem_status overlap_create(overlap *out, const dem_lattice *lattice)
+dem_status overlap_create(overlap *out, const dem_lattice *lattice, const ranks *r, const domain *d)
 {
-    mesh_boundary boundary;
     *out = (overlap){.found = {.node = -1, .triangle = -1}};
-    TRY(mesh_boundary_create(&boundary, lattice, NULL));
-    const dem_status status = create(out, &boundary);
-    mesh_boundary_free(&boundary);
-    if (status != DEM_OK) overlap_destroy(out);
-    return status;
+    if ((d != NULL ? d->n_triangles : lattice->n_triangles) == 0) return DEM_OK;
+    TRY(boundary_nodes_create(&out->nodes, lattice, r, d));
+    return reduce_status(r, allocate(out, lattice), 0.0);
 }
 
 void overlap_destroy(overlap *o)
 {
-    free(o->nodes);
+    boundary_nodes_free(&o->nodes);
     free(o->first);
     free(o->next);
     free(o->place);
@@ -104,21 +93,30 @@ static const uint32_t CELL = 0x7fffffff, NEAR = 0x80000000;
  * in any direction of both. */
 enum { EMPTY_AROUND = -1, EMPTY = -2 };
 
-/* Cells over all boundary nodes, about square. The list of a cell has its nodes in ascending order, since they are
- * entered backwards. */
-static void fill_cells(overlap *o, const double *x)
+/* What lies beyond all triangles here is in none of them. In the whole nothing does. */
+static void find_reach(overlap *o, dem_index n_nodes, const double *x)
 {
-    double right = -INFINITY, high = -INFINITY;
-    o->left = o->low = INFINITY;
-    for (dem_index p = 0; p < o->n; p++) {
-        const vec2 at = vec2_at(x, o->nodes[p]);
-        o->left = fmin(o->left, at.x);
-        o->low = fmin(o->low, at.y);
-        right = fmax(right, at.x);
-        high = fmax(high, at.y);
-    }
-    /* The grid is made of squares with columns * rows <= n_cells; a body without width or height has a single cell. */
-    const double width = right - o->left, height = high - o->low, n = (double)o->n_cells;
+    o->reach = (box){{-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
+    if (o->nodes.domain == NULL) return;
+    o->reach = box_empty();
+    for (dem_index i = 0; i < n_nodes; i++) o->reach = box_with(o->reach, vec2_at(x, i));
+}
+
+static bool is_in_reach(const overlap *o, dem_index p)
+{
+    const vec2 at = vec2_at(o->nodes.x, p);
+    return at.x >= o->reach.low.x && at.x <= o->reach.high.x && at.y >= o->reach.low.y && at.y <= o->reach.high.y;
+}
+
+/* The grid is made of squares with columns * rows <= n_cells; a body without width or height has a single cell. */
+static void lay_grid(overlap *o)
+{
+    box all = box_empty();
+    for (dem_index p = 0; p < o->nodes.n; p++)
+        if (is_in_reach(o, p)) all = box_with(all, vec2_at(o->nodes.x, p));
+    const double width = all.high.x - all.low.x, height = all.high.y - all.low.y, n = (double)o->n_cells;
+    o->left = all.low.x;
+    o->low = all.low.y;
     o->columns = o->rows = 1;
     o->cells_per_length = 0.0;
     if (width > 0.0 && height > 0.0 && n > 4.0) {
@@ -126,10 +124,16 @@ static void fill_cells(overlap *o, const double *x)
         o->rows = o->n_cells / o->columns < MOST_CELLS ? o->n_cells / o->columns : MOST_CELLS;
         o->cells_per_length = fmin((double)o->columns / width, (double)o->rows / height);
     }
+}
+
+/* Boundary nodes, in lists. */
+static void fill_cells(overlap *o)
+{
     for (dem_index c = 0; c < o->n_cells; c++) o->first[c] = EMPTY_AROUND;
-    for (dem_index p = o->n - 1; p >= 0; p--) {
-        const vec2 at = vec2_at(x, o->nodes[p]);
+    for (dem_index p = 0; p < o->nodes.n; p++) {
+        const vec2 at = vec2_at(o->nodes.x, p);
         int32_t *first = &o->first[row_of(o, at.y) * o->columns + column_of(o, at.x)];
+        if (!is_in_reach(o, p)) continue;
         o->next[p] = *first;
         *first = (int32_t)p;
     }
@@ -146,9 +150,9 @@ static dem_index smaller(dem_index a, dem_index b)
 }
 
 /* The cells from which that of a boundary node is at most two further, or one back. */
-static void mark_around(overlap *o, dem_index node, const double *x)
+static void mark_around(overlap *o, vec2 at)
 {
-    const dem_index row = row_of(o, x[2 * node + 1]), column = column_of(o, x[2 * node]);
+    const dem_index row = row_of(o, at.y), column = column_of(o, at.x);
     for (dem_index r = larger(row - 2, 0); r <= smaller(row + 1, o->rows - 1); r++)
         for (dem_index c = larger(column - 2, 0); c <= smaller(column + 1, o->columns - 1); c++)
             if (o->first[r * o->columns + c] == EMPTY_AROUND) o->first[r * o->columns + c] = EMPTY;
@@ -157,7 +161,8 @@ static void mark_around(overlap *o, dem_index node, const double *x)
 /* Once for all triangles at a node. */
 static void find_places(overlap *o, dem_index n_nodes, const double *x)
 {
-    for (dem_index p = 0; p < o->n; p++) mark_around(o, o->nodes[p], x);
+    for (dem_index p = 0; p < o->nodes.n; p++)
+        if (is_in_reach(o, p)) mark_around(o, vec2_at(o->nodes.x, p));
     for (dem_index i = 0; i < n_nodes; i++) {
         const dem_index row = row_of(o, x[2 * i + 1]), column = column_of(o, x[2 * i]);
         const bool near = o->first[row * o->columns + column] != EMPTY_AROUND;
@@ -168,24 +173,25 @@ static void find_places(overlap *o, dem_index n_nodes, const double *x)
 /* ---- triangles ---- */
 
 /* A node is inside if it makes a positive area with each side. A triangle that is itself folded has no inside. */
-static bool is_inside(const dem_index *corner, dem_index i, const double *x)
+static bool is_inside(const overlap *o, const dem_index *corner, dem_index p, const double *x)
 {
-    const vec2 a = vec2_at(x, corner[0]), b = vec2_at(x, corner[1]), c = vec2_at(x, corner[2]), p = vec2_at(x, i);
-    if (i == corner[0] || i == corner[1] || i == corner[2]) return false;
+    const vec2 a = vec2_at(x, corner[0]), b = vec2_at(x, corner[1]), c = vec2_at(x, corner[2]);
+    const vec2 at = vec2_at(o->nodes.x, p);
+    for (int e = 0; e < 3; e++)
+        if (domain_number(o->nodes.domain, corner[e]) == o->nodes.number[p]) return false;
     const double least = touching * vec2_triangle_area(a, b, c);
-    return least > 0.0 && vec2_triangle_area(a, b, p) > least && vec2_triangle_area(b, c, p) > least &&
-           vec2_triangle_area(c, a, p) > least;
+    return least > 0.0 && vec2_triangle_area(a, b, at) > least && vec2_triangle_area(b, c, at) > least &&
+           vec2_triangle_area(c, a, at) > least;
 }
 
-/* Counts an overlap, and keeps the time and place of the first one of a run. */
-static void note(overlap *o, dem_index node, dem_index triangle, double t, const double *x)
+/* Counts an overlap of boundary node p; triangles come in ascending order, nodes in any. */
+static void note(overlap_sight *seen, const boundary_nodes *nodes, dem_index p, dem_index triangle)
 {
-    if (o->found.now++ > 0 || o->found.node >= 0) return;
-    o->found.t = t;
-    o->found.node = node;
-    o->found.triangle = triangle;
-    o->found.x[0] = x[2 * node];
-    o->found.x[1] = x[2 * node + 1];
+    seen->n++;
+    if (seen->triangle >= 0 && (seen->triangle != triangle || seen->node < nodes->number[p])) return;
+    seen->triangle = triangle;
+    seen->node = nodes->number[p];
+    vec2_put(seen->x, 0, vec2_at(nodes->x, p));
 }
 
 static double least_of(double a, double b, double c)
@@ -209,7 +215,7 @@ static bool is_far(const overlap *o, const dem_index *corner)
 }
 
 /* All cells that the triangle's bounding box reaches into. */
-static void look_in(overlap *o, const dem_lattice *lattice, dem_index k, double t, const double *x)
+static void look_in(overlap *o, const dem_lattice *lattice, dem_index k, const double *x)
 {
     const dem_index *corner = &lattice->triangles[3 * k];
     const vec2 a = vec2_at(x, corner[0]), b = vec2_at(x, corner[1]), c = vec2_at(x, corner[2]);
@@ -218,7 +224,7 @@ static void look_in(overlap *o, const dem_lattice *lattice, dem_index k, double 
     for (dem_index row = row_of(o, least_of(a.y, b.y, c.y)); row <= top; row++)
         for (dem_index column = first; column <= last; column++)
             for (int32_t p = o->first[row * o->columns + column]; p >= 0; p = o->next[p])
-                if (is_inside(corner, o->nodes[p], x)) note(o, o->nodes[p], k, t, x);
+                if (is_inside(o, corner, p, x)) note(&o->seen, &o->nodes, p, domain_triangle(o->nodes.domain, k));
 }
 
 /* ---- looks ---- */
@@ -230,26 +236,58 @@ void overlap_break(overlap *o, const mesh_boundary *boundary, const unsigned cha
 }
 
 /* There is room for the cells, as triangles that are whole get fewer. */
-static void renew(overlap *o)
+static void renew(overlap *o, const dem_lattice *lattice)
 {
-    const dem_lattice *l = o->boundary->lattice;
-    list_nodes(o, o->boundary);
     dem_index n_whole = 0;
-    for (dem_index t = 0; t < l->n_triangles; t++) n_whole += o->broken == NULL || !o->broken[t];
+    for (dem_index t = 0; t < lattice->n_triangles; t++) n_whole += o->broken == NULL || !o->broken[t];
+    boundary_nodes_follow(&o->nodes, o->boundary);
     o->n_cells = count_cells(n_whole);
     o->boundary = NULL;
 }
 
-/* The grid is filled anew, since nodes move; `most` keeps the largest number found so far. */
+/* Whether triangle k may have something in it, and is looked at here. */
+static bool is_worth_it(const overlap *o, const dem_lattice *lattice, dem_index k)
+{
+    const dem_index *corner = &lattice->triangles[3 * k];
+    return !is_far(o, corner) && (o->broken == NULL || !o->broken[k]) &&
+           domain_owns(o->nodes.domain, domain_lowest(corner, 3));
+}
+
+static void join(void *packet, const void *other)
+{
+    overlap_sight *own = packet;
+    const overlap_sight *theirs = other;
+    const dem_index n = own->n + theirs->n;
+    if (theirs->n > 0 && (own->n == 0 || theirs->triangle < own->triangle)) *own = *theirs;
+    own->n = n;
+}
+
+/* Keeps the time and place of the first overlap of a run, and the largest number of a look. */
+static void keep(dem_overlap *found, const overlap_sight *seen, double t)
+{
+    found->now = seen->n;
+    if (seen->n > found->most) found->most = seen->n;
+    if (seen->n == 0 || found->node >= 0) return;
+    found->t = t;
+    found->node = seen->node;
+    found->triangle = seen->triangle;
+    vec2_put(found->x, 0, vec2_at(seen->x, 0));
+}
+
+/* The grid is filled anew, since nodes move. */
 void overlap_look(overlap *o, const dem_lattice *lattice, double t, const double *x)
 {
-    o->found.now = 0;
-    if (o->boundary != NULL) renew(o);
-    if (o->n == 0) return;
-    fill_cells(o, x);
+    if (!overlap_is_possible(o)) return;
+    const ranks *r = o->nodes.ranks;
+    if (o->boundary != NULL) renew(o, lattice);
+    boundary_nodes_locate(&o->nodes, x);
+    find_reach(o, lattice->n_nodes, x);
+    lay_grid(o);
+    fill_cells(o);
     find_places(o, lattice->n_nodes, x);
+    o->seen = (overlap_sight){.triangle = -1, .node = -1};
     for (dem_index k = 0; k < lattice->n_triangles; k++)
-        if (!is_far(o, &lattice->triangles[3 * k]) && (o->broken == NULL || !o->broken[k]))
-            look_in(o, lattice, k, t, x);
-    if (o->found.now > o->found.most) o->found.most = o->found.now;
+        if (is_worth_it(o, lattice, k)) look_in(o, lattice, k, x);
+    r->reduce(r->self, &o->seen, sizeof o->seen, join);
+    keep(&o->found, &o->seen, t);
 }

@@ -33,12 +33,6 @@ static dem_status follow_state(dem_simulation *s, const double *y)
     return y != NULL ? body_contact_follow(s, y) : DEM_OK;
 }
 
-/* Of ranks the simulation that leads them does, in the whole (led_run_look_for_overlaps()). */
-static bool looks_for_overlaps(const dem_simulation *s)
-{
-    return s->model->domain == NULL;
-}
-
 /* What surfaces had before. */
 static dem_status go_back(dem_simulation *s, const double *y)
 {
@@ -52,7 +46,7 @@ static dem_status follow(dem_simulation *s, const element_state *next, const mes
 {
     dem_status status = break_surfaces(s, boundary, next->triangle, y);
     if (status == DEM_OK) status = follow_state(s, y);
-    if (status == DEM_OK && looks_for_overlaps(s)) status = overlap_reserve(&s->overlap, boundary);
+    if (status == DEM_OK) status = overlap_reserve(&s->overlap, boundary);
     if (status == DEM_OK && outline != NULL) status = contact_source_follow_surface(&s->contact_events, outline);
     return status == DEM_OK ? DEM_OK : status_first(status, go_back(s, y));
 }
@@ -111,7 +105,7 @@ static dem_status renew_outline(dem_simulation *s, const element_state *next, co
     if (s->surfaces != NULL) surface_contact_keep(s->surfaces);
     s->outline = outline;
     s->boundary = boundary;
-    if (looks_for_overlaps(s)) overlap_break(&s->overlap, &s->boundary, next->triangle);
+    overlap_break(&s->overlap, &s->boundary, next->triangle);
     s->n_outside = next->n_broken;
     return DEM_OK;
 }

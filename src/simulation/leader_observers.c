@@ -74,13 +74,12 @@ static dem_status lead_frame(void *context, const dem_simulation *part)
     return release(l, observers_frame(&l->whole->observers, f->observer, l->whole));
 }
 
-/* The whole's is that of the part, which has gathered all nodes, but for overlaps, which only the whole looks for. The
- * part has no use for it: it goes on from that of the whole. */
+/* The whole's is that of the part, which has gathered all nodes. The part has no use for it: it goes on from that of the
+ * whole. */
 static dem_status take_checkpoint(dem_simulation *whole, dem_checkpoint *from)
 {
     whole->has_checkpoint = false;
     TRY(checkpoint_entries_move(whole->checkpoint, from));
-    TRY(dem_checkpoint_put(whole->checkpoint, "overlap", &whole->overlap.found, sizeof whole->overlap.found));
     whole->has_checkpoint = true;
     return observers_checkpoint(&whole->observers, whole, whole->checkpoint);
 }

@@ -9,11 +9,9 @@
 #include "base/checkpoint_entries.h"
 #include "base/reduce.h"
 #include "base/status.h"
-#include "domain/gather.h"
 #include "model/shared_model.h"
 #include "simulation/leader_observers.h"
 #include "simulation/rank_shares.h"
-#include "simulation/shared_breaks.h"
 #include "simulation/shared_orders.h"
 #include "simulation/shared_problem.h"
 #include "simulation/shared_sections.h"
@@ -364,20 +362,6 @@ dem_status rank_order_give(const dem_simulation *simulation, const rank_order *o
     const dem_status status = shared_orders_pass(&l->ranks, orders, n);
     led_ranks_leave(l);
     return status;
-}
-
-void led_run_look_for_overlaps(dem_simulation *part)
-{
-    dem_simulation *whole = part->whole;
-    const dem_model *m = part->model;
-    double *x = whole != NULL ? whole->frame : NULL;
-    const gather_items nodes = gather_nodes(m->domain);
-    /* A lack of memory ends all ranks: led_ranks_enter(). */
-    const dem_status status = gather_rows(m->ranks, &nodes, (size_t)part->layout.dim * sizeof *x, part->y, x);
-    if (status != DEM_OK || whole == NULL) return;
-    whole->measures->has_state = whole->measures->has_elements = false;
-    if (shared_breaks_show(whole, part) != DEM_OK || shared_breaks_look(whole) != DEM_OK) return;
-    overlap_look(&whole->overlap, &whole->model->lattice, part->t, x);
 }
 
 /* ---- peaks ---- */

@@ -66,9 +66,6 @@ dem_status led_run_bring_node_peaks(const dem_simulation *whole, dem_peaks *peak
 dem_status led_run_bring_spring_peaks(const dem_simulation *whole, dem_peaks *peaks);
 void led_run_forget_peaks(const dem_simulation *whole, const dem_peaks *peaks);
 
-/** Looks for overlaps in the whole, in the midst of an advance of all parts. */
-void led_run_look_for_overlaps(dem_simulation *part);
-
 /** Ends what the simulation leads. */
 void led_run_destroy(led_run *l);
 

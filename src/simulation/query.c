@@ -446,7 +446,8 @@ dem_status dem_simulation_stress_at(const dem_simulation *s, dem_index node, dou
 
 dem_status dem_simulation_overlap(const dem_simulation *s, dem_overlap *out)
 {
-    TRY(check_whole("dem_simulation_overlap", s, out));
+    TRY(check_pointers("dem_simulation_overlap", s, out));
+    if (s->leads != NULL) return dem_simulation_overlap(led_run_part(s->leads), out);
     return GIVE(dem_overlap, out, &s->overlap.found);
 }
 

@@ -192,8 +192,7 @@ static dem_status set_up(dem_simulation *s)
     free(s->initial);
     s->initial = NULL;
     TRY(dem_checkpoint_create(&s->checkpoint));
-    if (model->domain == NULL) TRY(overlap_create(&s->overlap, &model->lattice));
-    if (model->domain != NULL) s->overlap.found.node = s->overlap.found.triangle = -1; /* not looked for */
+    TRY(overlap_create(&s->overlap, &model->lattice, model->ranks, model->domain));
     overlap_look(&s->overlap, &model->lattice, s->t, s->y);
     query_at(s, 0.0, s->y);
     return DEM_OK;
@@ -295,7 +294,6 @@ void dem_simulation_destroy(dem_simulation *s)
     external_force_destroy(s->external);
     held_forces_destroy(&s->held_forces);
     halo_destroy(&s->halo);
-    overlap_destroy(&s->overlap);
     free(s->frame);
     free(s->measures);
     if (s->field != NULL) stress_field_destroy(s->field);

@@ -110,17 +110,3 @@ dem_status shared_breaks_show(dem_simulation *whole, const dem_simulation *part)
     element_state_follow_part(&whole->elements, &part->elements, part->model->domain);
     return DEM_OK;
 }
-
-dem_status shared_breaks_look(dem_simulation *whole)
-{
-    const element_state *elements = whole->forces.elements;
-    mesh_boundary boundary;
-    if (elements == NULL || elements->n_broken == whole->n_outside) return DEM_OK;
-    TRY(mesh_boundary_create(&boundary, &whole->model->lattice, elements->triangle));
-    mesh_boundary_free(&whole->boundary);
-    whole->boundary = boundary;
-    TRY(overlap_reserve(&whole->overlap, &whole->boundary));
-    overlap_break(&whole->overlap, &whole->boundary, elements->triangle);
-    whole->n_outside = elements->n_broken;
-    return DEM_OK;
-}

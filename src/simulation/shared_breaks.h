@@ -21,7 +21,4 @@ dem_status shared_breaks_cut(const dem_simulation *s, dem_checkpoint *checkpoint
 /** Makes what is broken in a simulation of the whole what is so in a part.  \return DEM_ERROR_MEMORY */
 dem_status shared_breaks_show(dem_simulation *whole, const dem_simulation *part);
 
-/** Makes the whole look for overlaps among what is not broken there.  \return DEM_ERROR_MEMORY */
-dem_status shared_breaks_look(dem_simulation *whole);
-
 #endif

@@ -328,13 +328,11 @@ static dem_status go_on(dem_simulation *s, dem_status status)
     return status == DEM_ERROR_CONTACT ? status : status_first(status, report_step(s));
 }
 
-/* Overlaps of bodies are only reported, not resolved: a look now and then is enough. */
+/* Overlaps of bodies are only reported, not resolved: a look now and then is enough. Of ghosts only positions count. */
 static void look_for_overlaps(dem_simulation *s)
 {
-    if (s->is_led)
-        led_run_look_for_overlaps(s);
-    else
-        overlap_look(&s->overlap, &s->model->lattice, s->t, s->y);
+    if (run_is_shared(s) && overlap_is_possible(&s->overlap)) halo_exchange(&s->halo, &s->y, 1);
+    overlap_look(&s->overlap, &s->model->lattice, s->t, s->y);
     s->unlooked = 0;
 }
 

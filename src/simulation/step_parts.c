@@ -14,6 +14,7 @@ void step_parts_destroy(dem_simulation *s)
     s->seen = s->frame;
     unseen_steps_destroy(s);
     kernel_destroy(&s->kernel);
+    overlap_destroy(&s->overlap);
     event_queue_destroy(&s->queue);
     source_list_destroy(&s->sources);
     contact_source_destroy(&s->contact_events);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The parts of a simulation that steps and events are computed with: integrator, kernel, contacts with
+/* The parts of a simulation that steps and events are computed with: integrator, kernel, overlaps, contacts with
  * obstacles and between bodies, queue of events. */
 #ifndef DEM_SIMULATION_STEP_PARTS_H
 #define DEM_SIMULATION_STEP_PARTS_H

@@ -179,6 +179,7 @@ static dem_status see(const dem_simulation *s, rank_runs_view *to)
     to->energy = ask_energy(s);
     to->strain = ask_strain(s);
     to->surfaces = ask_surfaces(s);
+    to->overlap = ask_overlap(s);
     see_lists(s, to);
     see_sums(s, to);
     return see_one(s, to);
@@ -523,7 +524,7 @@ static const struct {
 } members[] = {MEMBER(t),         MEMBER(step),     MEMBER(residual), MEMBER(counts),     MEMBER(energy),
                MEMBER(strain),    MEMBER(surfaces), MEMBER(totals),   MEMBER(ledger),     MEMBER(n_contacts),
                MEMBER(bodies),    MEMBER(pairs),    MEMBER(contacts), MEMBER(boundaries), MEMBER(obstacle),
-               MEMBER(stress_at), MEMBER(force_at)};
+               MEMBER(stress_at), MEMBER(force_at), MEMBER(overlap)};
 
 static const char *difference_of_views(const rank_runs_view *one, const rank_runs_view *whole)
 {

@@ -54,6 +54,7 @@ typedef struct rank_runs_view {
     dem_energy energy;
     dem_strain strain;
     dem_surfaces surfaces;
+    dem_overlap overlap;
     double totals[STATE_TOTALS], ledger[3]; /* J */
     dem_index n_contacts;
     dem_body_motion bodies[2];
@@ -115,6 +116,14 @@ void rank_runs_go(const dem_model *model, const ranks *leads, const rank_runs_ou
 
 /** A process alone runs the scene, to its end. */
 rank_runs_outcome rank_runs_alone(const rank_runs_scene *scene);
+
+/** How many looks for overlaps there are up to the end of a step, behind that at the start, where bodies do not touch
+ *  each other; and what each of them takes beside a reduction, where some of the boundary is not common. */
+static inline dem_index rank_runs_looks(dem_index steps)
+{
+    return steps / 16;
+}
+enum { RANK_RUNS_LOOK_EXCHANGES = 2, RANK_RUNS_START_EXCHANGES = 3 };
 
 /** Sets a body off, so that it swings and shears: at 60 m/s some triangles of rubber fold.
  *  \param wave  of short waves, in 1/(50 mm) */

@@ -121,13 +121,15 @@ static bool is_once_a_step(const scene *s, int n_rings)
 }
 
 /* One exchange for each evaluation, or for each attempt and the first state; a team of one steps as a process alone
- * does, without any. That at the end of a step of Fehlberg's is made even if the step is rejected; the first fixed step
+ * does, without any. To these come those of looks for overlaps. That at the end of a step of Fehlberg's is made even if the step is rejected; the first fixed step
  * of ARKODE's asks the guard for its length before there is one. */
 static dem_index exchanges_of(const dem_options *options, bool once_a_step, int n_ranks, const dem_counts *counts)
 {
     const dem_index ahead = options->method == DEM_METHOD_FEHLBERG45 ? counts->rejected : 0;
-    if (n_ranks > 1 && once_a_step) return counts->steps + counts->rejected + 1;
-    return n_ranks > 1 ? counts->evaluations + ahead + (options->method == DEM_METHOD_RK4) : 0;
+    const dem_index looks = RANK_RUNS_START_EXCHANGES + RANK_RUNS_LOOK_EXCHANGES * rank_runs_looks(counts->steps - 1);
+    if (n_ranks == 1) return 0;
+    if (once_a_step) return looks + counts->steps + counts->rejected + 1;
+    return looks + counts->evaluations + ahead + (options->method == DEM_METHOD_RK4);
 }
 
 static void share_rings(const scene *s, int n_rings, int n_ranks, const int32_t *owner, const rank_runs_outcome *from,
@@ -313,8 +315,10 @@ static void check_calls(int body, dem_method method, int n_rings, int n_exchange
     assert_int_equal(count_rejected(all), 0);
     for (dem_index k = 2; k < all->n_steps; k++) {
         const rank_runs_step *step = &all->steps[k];
-        assert_int_equal(step->calls.exchanges - step[-1].calls.exchanges, n_exchanges);
-        assert_int_equal(step->calls.reductions - step[-1].calls.reductions, 1);
+        const int n_looks = (int)(rank_runs_looks(k) - rank_runs_looks(k - 1));
+        assert_int_equal(step->calls.exchanges - step[-1].calls.exchanges,
+                         n_exchanges + n_looks * RANK_RUNS_LOOK_EXCHANGES);
+        assert_int_equal(step->calls.reductions - step[-1].calls.reductions, 1 + n_looks);
     }
     rank_runs_free_outcomes(all, 3);
     close_scene(&s);
@@ -346,10 +350,12 @@ TEST(an_attempt_that_is_rejected_needs_two_reductions_at_most)
         open_scene(&s, 0, DEM_METHOD_FEHLBERG45);
         listen(&s, n_rings, 3e-4, all);
         const dem_index n_rejected = count_rejected(all), n = all->n_steps - 1, least = n + n_rejected;
+        const int n_looks = (int)rank_runs_looks(n);
         const rank_threads_counts *first = &all->steps[0].calls, *last = &all->steps[n].calls;
         assert_true(n_rejected > 0);
-        assert_in_range(last->reductions - first->reductions, least, least + n_rejected + 3);
-        assert_int_equal(last->exchanges - first->exchanges, (n_rings == 1 ? 6 : 1) * least + 1);
+        assert_in_range(last->reductions - first->reductions - n_looks, least, least + n_rejected + 3);
+        assert_int_equal(last->exchanges - first->exchanges - n_looks * RANK_RUNS_LOOK_EXCHANGES,
+                         (n_rings == 1 ? 6 : 1) * least + 1);
         rank_runs_free_outcomes(all, 3);
         close_scene(&s);
     }

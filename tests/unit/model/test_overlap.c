@@ -68,7 +68,7 @@ TEST(every_pair_is_counted)
     CLEANUP(overlap_destroy) overlap o;
     make_discs(&l, 3.0);
     assert_ok(dem_lattice_exclude(&l, NULL, 0)); /* fills the flags */
-    assert_ok(overlap_create(&o, &l));
+    assert_ok(overlap_create(&o, &l, &ranks_alone, NULL));
     check_counts(&o, &l, &l, 4.0);
 }
 
@@ -79,7 +79,7 @@ TEST(every_pair_is_counted_far_inside_of_bodies)
     CLEANUP(overlap_destroy) overlap o;
     make_discs(&l, 9.0);
     assert_ok(dem_lattice_exclude(&l, NULL, 0));
-    assert_ok(overlap_create(&o, &l));
+    assert_ok(overlap_create(&o, &l, &ranks_alone, NULL));
     check_counts(&o, &l, &l, 16.0);
 }
 
@@ -91,7 +91,7 @@ TEST(broken_triangles_do_not_count)
     CLEANUP(mesh_boundary_free) mesh_boundary boundary;
     make_discs(&l, 3.0);
     assert_ok(dem_lattice_exclude(&l, NULL, 0));
-    assert_ok(overlap_create(&o, &l));
+    assert_ok(overlap_create(&o, &l, &ranks_alone, NULL));
     CLEANUP(free_memory) unsigned char *broken = calloc((size_t)l.n_triangles, 1);
     assert_non_null(broken);
     for (dem_index k = 0; k < l.n_triangles; k++) broken[k] = k * k % 7 < 3 && k % 2 == 0;
@@ -114,7 +114,7 @@ TEST(the_first_is_kept)
     CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
     CLEANUP(overlap_destroy) overlap o;
     make_discs(&l, 3.0);
-    assert_ok(overlap_create(&o, &l));
+    assert_ok(overlap_create(&o, &l, &ranks_alone, NULL));
     overlap_look(&o, &l, 1.0, l.x);
     assert_int_equal(o.found.now, 0);
     assert_int_equal(o.found.node, -1);
@@ -139,7 +139,7 @@ TEST(a_whole_body_does_not_overlap_itself)
     CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
     CLEANUP(overlap_destroy) overlap o;
     assert_ok(dem_lattice_rectangle(&l, 5.0, 5.0, 1.0));
-    assert_ok(overlap_create(&o, &l));
+    assert_ok(overlap_create(&o, &l, &ranks_alone, NULL));
     for (int k = 0; k < 10; k++) {
         dem_lattice_move(&l, 0.3, (const double[2]){1e3, -7.0});
         overlap_look(&o, &l, 0.0, l.x);
