@@ -18,6 +18,7 @@ enum { FLOOR_POINTS = 61 };
 
 static const char path[] = "verify_ranks_slabs.h5";
 static const double spacing = 2.5e-3, width = 0.07, height = 0.045;
+static const double slit_height = 0.02, slit_angle = 0.1; /* m, of the middle */
 
 /* ---- scenes ---- */
 
@@ -29,8 +30,9 @@ typedef struct kind {
     double damping_time;    /* s, of springs */
     dem_springs springs;
     dem_method method;
-    bool is_read; /* the slabs are those of a file */
-    int rings;    /* of ghosts, at most, if they are no more than all nodes; 0: as many as there is a use for */
+    bool is_read;   /* the slabs are those of a file */
+    double closing; /* m/s, at which what is above a slit falls on what is below it; nothing prevents that */
+    int rings;      /* of ghosts, at most, if they are no more than all nodes; 0: as many as there is a use for */
 } kind;
 
 typedef struct scene {
@@ -67,6 +69,9 @@ static void finish_block(dem_lattice *l, const kind *k, double lift)
     dem_lattice_move(l, 0.02, (double[]){0.0, lift});
     assert_ok(dem_lattice_launch(l, down));
     if (!k->has_floor) rank_runs_set_off(l, 20.0, 1.0);
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        if (l->x[2 * i + 1] - lift > slit_height + (slit_angle + 0.02) * l->x[2 * i])
+            l->velocity[2 * i + 1] -= k->closing;
 }
 
 static dem_status triangulate(dem_lattice *l, const kind *k)
@@ -163,6 +168,7 @@ static void check(const kind *k)
     rank_runs_outcome whole = rank_runs_alone(&s.run);
     assert_string_equal(whole.message, "");
     assert_true(!k->has_floor || whole.n_notes > 10);
+    assert_true(!(k->closing > 0.0) || whole.views[RANK_RUNS_STOPS - 1].overlap.now > 3);
     for (int n = 1; n <= 4; n++) slab_runs_assert_same(&runs, n, &whole);
     rank_runs_free_outcome(&whole);
     dem_model_destroy(s.run.model);
@@ -230,14 +236,18 @@ TEST(a_porous_plate_in_slabs_falls_on_obstacles_as_the_whole)
     check(&(kind){.has_floor = true, .shape = &shape, .is_square = true, .method = DEM_METHOD_VERLET});
 }
 
-/* The void goes through all of it: the lower part hits the floor, the upper one does not. */
+/* The void goes through all of it: the lower part hits the floor, the upper one does not, or runs into the lower one
+ * without a floor. */
 TEST(parts_that_are_not_connected_move_in_slabs_as_in_the_whole)
 {
     const double points[] = {-0.03, 0.0, 0.03, 0.0, 0.0, 0.05};
     const dem_outline triangle = SIZED(dem_outline, .kind = DEM_OUTLINE_POLYGON, .n_points = 3, .points = points);
-    const dem_outline slit = SIZED(dem_outline, .size = {1.0, 1.8 * spacing}, .centre = {0.0, 0.02}, .angle = 0.1);
+    const dem_outline slit =
+        SIZED(dem_outline, .size = {1.0, 1.8 * spacing}, .centre = {0.0, slit_height}, .angle = slit_angle);
     const dem_shape shape = SIZED(dem_shape, .outline = &triangle, .spacing = spacing, .n_voids = 1, .voids = &slit);
     check(&(kind){.has_floor = true, .shape = &shape, .method = DEM_METHOD_VERLET});
+    check(&(kind){.shape = &shape, .method = DEM_METHOD_VERLET, .closing = 60.0});
+    check(&(kind){.shape = &shape, .method = DEM_METHOD_FEHLBERG45, .closing = 60.0, .rings = 3});
 }
 
 /* Slabs of the upper one lack arrays that those of the lower one have. */
