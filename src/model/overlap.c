@@ -172,16 +172,30 @@ static void find_places(overlap *o, dem_index n_nodes, const double *x)
 
 /* ---- triangles ---- */
 
-/* A node is inside if it makes a positive area with each side. A triangle that is itself folded has no inside. */
-static bool is_inside(const overlap *o, const dem_index *corner, dem_index p, const double *x)
+/* One in which nodes are looked for. */
+typedef struct target {
+    vec2 a, b, c;
+    dem_index corner[3]; /* numbers in the whole */
+} target;
+
+static target target_of(const overlap *o, const dem_index *corner, const double *x)
 {
-    const vec2 a = vec2_at(x, corner[0]), b = vec2_at(x, corner[1]), c = vec2_at(x, corner[2]);
-    const vec2 at = vec2_at(o->nodes.x, p);
-    for (int e = 0; e < 3; e++)
-        if (domain_number(o->nodes.domain, corner[e]) == o->nodes.number[p]) return false;
-    const double least = touching * vec2_triangle_area(a, b, c);
-    return least > 0.0 && vec2_triangle_area(a, b, at) > least && vec2_triangle_area(b, c, at) > least &&
-           vec2_triangle_area(c, a, at) > least;
+    const domain *d = o->nodes.domain;
+    return (target){vec2_at(x, corner[0]),
+                    vec2_at(x, corner[1]),
+                    vec2_at(x, corner[2]),
+                    {domain_number(d, corner[0]), domain_number(d, corner[1]), domain_number(d, corner[2])}};
+}
+
+/* A node is inside if it makes a positive area with each side. A triangle that is itself folded has no inside. */
+static bool is_inside(const target *of, const boundary_nodes *nodes, dem_index p)
+{
+    const vec2 at = vec2_at(nodes->x, p);
+    const dem_index number = nodes->number[p];
+    if (number == of->corner[0] || number == of->corner[1] || number == of->corner[2]) return false;
+    const double least = touching * vec2_triangle_area(of->a, of->b, of->c);
+    return least > 0.0 && vec2_triangle_area(of->a, of->b, at) > least &&
+           vec2_triangle_area(of->b, of->c, at) > least && vec2_triangle_area(of->c, of->a, at) > least;
 }
 
 /* Counts an overlap of boundary node p; triangles come in ascending order, nodes in any. */
@@ -217,14 +231,14 @@ static bool is_far(const overlap *o, const dem_index *corner)
 /* All cells that the triangle's bounding box reaches into. */
 static void look_in(overlap *o, const dem_lattice *lattice, dem_index k, const double *x)
 {
-    const dem_index *corner = &lattice->triangles[3 * k];
-    const vec2 a = vec2_at(x, corner[0]), b = vec2_at(x, corner[1]), c = vec2_at(x, corner[2]);
-    const dem_index first = column_of(o, least_of(a.x, b.x, c.x)), last = column_of(o, most_of(a.x, b.x, c.x));
-    const dem_index top = row_of(o, most_of(a.y, b.y, c.y));
-    for (dem_index row = row_of(o, least_of(a.y, b.y, c.y)); row <= top; row++)
+    const target t = target_of(o, &lattice->triangles[3 * k], x);
+    const dem_index first = column_of(o, least_of(t.a.x, t.b.x, t.c.x)),
+                    last = column_of(o, most_of(t.a.x, t.b.x, t.c.x));
+    const dem_index top = row_of(o, most_of(t.a.y, t.b.y, t.c.y));
+    for (dem_index row = row_of(o, least_of(t.a.y, t.b.y, t.c.y)); row <= top; row++)
         for (dem_index column = first; column <= last; column++)
             for (int32_t p = o->first[row * o->columns + column]; p >= 0; p = o->next[p])
-                if (is_inside(o, corner, p, x)) note(&o->seen, &o->nodes, p, domain_triangle(o->nodes.domain, k));
+                if (is_inside(&t, &o->nodes, p)) note(&o->seen, &o->nodes, p, domain_triangle(o->nodes.domain, k));
 }
 
 /* ---- looks ---- */

@@ -13,7 +13,7 @@
 static const double spacing = 5e-3, wavelength = 0.12, speed = 1.0;
 
 /* A square of about so many nodes of springs alone, without area terms and without the guard. Its triangles are left
- * out, too: a process alone would look for overlaps in them, which ranks do not. */
+ * out, too, in which overlaps would be looked for. */
 static dem_lattice make_plate(dem_index nodes)
 {
     const double side = spacing * (sqrt((double)nodes * sqrt(3.0) / 2.0) - 0.5);
