@@ -25,7 +25,11 @@ int rank_order_ranks(const dem_simulation *simulation);
 dem_status rank_order_give(const dem_simulation *simulation, const rank_order *orders, int n);
 
 /** Carries an order out, on the rank that it was given to. Defined in output/stripe_file.c.
+ *  \param kept  what this rank keeps from one order to the next, NULL at first; to be freed by rank_order_forget()
  *  \param what  aligned as memory of malloc() */
-dem_status rank_order_obey(const void *what, const void *data);
+dem_status rank_order_obey(void **kept, const void *what, const void *data);
+
+/** Gives up what a rank has kept. No order depends on it: they only take longer without. */
+void rank_order_forget(void **kept);
 
 #endif

@@ -33,6 +33,16 @@ size_t frame_stripes_first_byte(const frames *f, int array, int k)
     return (size_t)first_of(f, frame_arrays_of(array), k) * frame_arrays_row_bytes(array);
 }
 
+size_t frame_stripes_bytes(const frames *f, int k, int first, int end)
+{
+    size_t bytes = 0;
+    for (int a = first; a < end; a++) {
+        const size_t rows = frame_stripes_first_byte(f, a, k + 1) - frame_stripes_first_byte(f, a, k);
+        if (frame_arrays_is_wanted(f, a)) bytes += (rows + 7) / 8 * 8;
+    }
+    return bytes;
+}
+
 dem_status frame_stripes_create(const frames *stripe, const hdf5_file *file)
 {
     for (int k = 0; k < FRAME_ARRAYS; k++) {

@@ -167,12 +167,25 @@ dem_status hdf5_chunks_unpack(hid_t dataset, const hsize_t *start, const hsize_t
     return whole ? DEM_OK : DEM_ERROR_IO;
 }
 
+/* Of each read that converts numbers HDF5 fills a buffer of 1 MiB with zeros, which takes longer than few numbers do,
+ * unless it is told that less will do: for a number it takes no more than 16 bytes. */
+static hid_t make_transfer(const hsize_t *count, int rank)
+{
+    const hsize_t usual = 1 << 20;
+    hsize_t bytes = 16;
+    for (int d = 0; d < rank && bytes < usual; d++) bytes *= count[d] > 0 ? count[d] : 1;
+    const hid_t transfer = H5Pcreate(H5P_DATASET_XFER);
+    if (bytes < usual) (void)H5Pset_buffer(transfer, (size_t)bytes, NULL, NULL);
+    return transfer;
+}
+
 herr_t hdf5_chunks_read(hid_t dataset, hid_t type, const hsize_t *start, const hsize_t *count, int rank, void *buffer)
 {
     const hid_t space = H5Dget_space(dataset);
-    const hid_t memory = H5Screate_simple(rank, count, NULL);
+    const hid_t memory = H5Screate_simple(rank, count, NULL), transfer = make_transfer(count, rank);
     herr_t result = H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL);
-    if (result >= 0) result = H5Dread(dataset, type, memory, space, H5P_DEFAULT, buffer);
+    if (result >= 0) result = H5Dread(dataset, type, memory, space, transfer, buffer);
+    (void)H5Pclose(transfer);
     (void)H5Sclose(memory);
     (void)H5Sclose(space);
     return result;

@@ -39,7 +39,7 @@ dem_status hdf5_open_write(hdf5_file *out, const char *path, hsize_t bytes);
 /** The same with a new, empty file in place of an older one. */
 dem_status hdf5_open_new(hdf5_file *out, const char *path, hsize_t bytes);
 
-/** Keeps the datasets that rows are appended to from now on open until the file is closed. */
+/** Keeps the datasets that rows are appended to, or read from, from now on open until the file is closed. */
 void hdf5_keep(hdf5_file *file);
 
 /** Flushes, so that on the disk is a whole file, and gives back the lock; the file stays open. After a failure, which

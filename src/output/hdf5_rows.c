@@ -175,12 +175,13 @@ dem_status hdf5_append(const hdf5_file *file, const hdf5_rows *rows, hsize_t fir
 dem_status hdf5_read(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, void *data)
 {
     const hsize_t start[HDF5_MAX_RANK] = {first}, block[HDF5_MAX_RANK] = {count, rows->tail[0], rows->tail[1]};
-    const hid_t dataset = hdf5_chunks_open(file->id, rows->name);
+    const hid_t dataset = file->kept != NULL ? kept_datasets_open(file->kept, file->id, rows->name)
+                                             : hdf5_chunks_open(file->id, rows->name);
     if (dataset < 0) return hdf5_fail(file, rows->name, "cannot be read");
     dem_status status = hdf5_chunks_check(file->path, rows->name, dataset, start, block, rows->rank);
     if (status == DEM_OK && hdf5_chunks_read(dataset, hdf5_memory_type(rows->kind), start, block, rows->rank, data) < 0)
         status = hdf5_fail(file, rows->name, "cannot be read");
-    (void)H5Dclose(dataset);
+    (void)kept_datasets_leave(file->kept, dataset);
     return status;
 }
 

@@ -7,7 +7,53 @@
 #include "base/status.h"
 #include "output/hdf5_attribute.h"
 
+#include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
+
+/* What a rank keeps from one order to the next: a file that is paused. */
+typedef struct open_stripe {
+    hdf5_file file;
+    char path[HDF5_PATH];
+} open_stripe;
+
+static dem_status close_kept(void **kept)
+{
+    open_stripe *s = *kept;
+    *kept = NULL;
+    const dem_status status = s != NULL ? hdf5_close_paused(&s->file) : DEM_OK;
+    free(s);
+    return status;
+}
+
+static dem_status open_kept(void **kept, const char *path, hsize_t bytes)
+{
+    open_stripe *s = *kept;
+    if (s != NULL && strcmp(s->path, path) == 0) return hdf5_resume(&s->file, bytes);
+    TRY(close_kept(kept));
+    s = malloc(sizeof *s);
+    CHECK_MEMORY(s);
+    memcpy(s->path, path, sizeof s->path);
+    const dem_status status = hdf5_open_write(&s->file, s->path, bytes);
+    if (status != DEM_OK) {
+        free(s);
+        return status;
+    }
+    hdf5_keep(&s->file);
+    *kept = s;
+    return DEM_OK;
+}
+
+/* After a failure it is opened anew the next time. */
+static dem_status leave_kept(void **kept, bool stays_open, dem_status status)
+{
+    open_stripe *s = *kept;
+    status = stays_open ? hdf5_pause(&s->file, status) : hdf5_close(&s->file, status);
+    if (stays_open && status == DEM_OK) return DEM_OK;
+    free(s);
+    *kept = NULL;
+    return status;
+}
 
 static dem_status create(const stripe_order *o, const frames *stripe)
 {
@@ -19,34 +65,53 @@ static dem_status create(const stripe_order *o, const frames *stripe)
     return hdf5_close(&file, status);
 }
 
-static dem_status write_array(const stripe_order *o, const frames *stripe, const void *data)
+static dem_status write_arrays(const stripe_order *o, const frames *stripe, const hdf5_file *file, const char *data)
 {
-    hdf5_file file;
-    TRY(hdf5_open_write(&file, o->path, frame_arrays_bytes(stripe)));
-    return hdf5_close(&file, frame_arrays_append(stripe, &file, o->array, o->frames.first, data));
+    for (int k = o->first; k < o->end; k++) {
+        TRY(frame_arrays_append(stripe, file, k, o->frames.first, data));
+        data += frame_stripes_bytes(&o->whole, o->stripe, k, k + 1);
+    }
+    return DEM_OK;
+}
+
+static dem_status write_frame(void **kept, const stripe_order *o, const frames *stripe, const void *data)
+{
+    TRY(open_kept(kept, o->path, frame_stripes_bytes(&o->whole, o->stripe, o->first, o->end)));
+    return leave_kept(kept, o->stays_open, write_arrays(o, stripe, &((open_stripe *)*kept)->file, data));
 }
 
 static dem_status copy(const stripe_order *o, const frames *stripe)
 {
     hdf5_file from, to;
     TRY(hdf5_open_write(&to, o->path, o->frames.count * frame_arrays_bytes(stripe)));
+    hdf5_keep(&to);
     dem_status status = hdf5_open_read(&from, o->other);
+    if (status == DEM_OK) hdf5_keep(&from);
     if (status == DEM_OK) status = hdf5_close(&from, frame_stripes_copy(&o->whole, o->stripe, &from, &to, o->frames));
     return hdf5_close(&to, status);
 }
 
-dem_status rank_order_obey(const void *what, const void *data)
+dem_status rank_order_obey(void **kept, const void *what, const void *data)
 {
     const stripe_order *o = what;
     const frames stripe = frame_stripes_get(&o->whole, o->stripe);
+    if (o->kind != STRIPE_WRITE) TRY(close_kept(kept));
     switch (o->kind) {
     case STRIPE_CREATE:
         return create(o, &stripe);
     case STRIPE_WRITE:
-        return write_array(o, &stripe, data);
+        return write_frame(kept, o, &stripe, data);
+    case STRIPE_CLOSE:
+        return DEM_OK;
     case STRIPE_COPY:
         return copy(o, &stripe);
     default:
         return hdf5_publish(o->path, o->other);
     }
+}
+
+/* On the disk is a whole file, whatever closing says. */
+void rank_order_forget(void **kept)
+{
+    (void)close_kept(kept);
 }

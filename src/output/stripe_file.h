@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The file of a *stripe*: the rows of one of W equal ranges of nodes, springs and triangles in the arrays of some
- * frames, which another file has as virtual datasets. Any rank can be ordered to write it (base/rank_order.h); between
- * two orders it is closed. */
+ * frames, which another file has as virtual datasets. Any rank can be ordered to write it (base/rank_order.h). Between
+ * two orders it is whole in the file system, and closed, or open for the next arrays. */
 #ifndef DEM_OUTPUT_STRIPE_FILE_H
 #define DEM_OUTPUT_STRIPE_FILE_H
 
@@ -12,7 +12,8 @@
 
 typedef enum stripe_order_kind {
     STRIPE_CREATE, /* the file, without frames, in place of one of that name */
-    STRIPE_WRITE,  /* an array of a frame: the data of the order */
+    STRIPE_WRITE,  /* arrays of a frame: the data of the order */
+    STRIPE_CLOSE,  /* the file that is open, before anybody reads it */
     STRIPE_COPY,   /* frames from another file, which has all rows */
     STRIPE_PUBLISH /* the file, under another name or its own */
 } stripe_order_kind;
@@ -20,7 +21,9 @@ typedef enum stripe_order_kind {
 typedef struct stripe_order {
     stripe_order_kind kind;
     frames whole; /* what frames have, of all rows; no pointers */
-    int stripe, array;
+    int stripe;
+    int first, end;   /* arrays: those of STRIPE_WRITE */
+    bool stays_open;  /* after STRIPE_WRITE */
     dem_index number; /* of the segment that the stripe is of; 0: of the whole */
     hdf5_span frames; /* of STRIPE_WRITE only the first */
     char path[HDF5_PATH], other[HDF5_PATH];

@@ -61,6 +61,8 @@ static dem_status prepare(orders *o, const stripes *s, const frames *f, dem_inde
     for (int k = 0; k < s->n; k++) {
         stripe_order *what = &o->contents[k];
         what->kind = kind;
+        what->stays_open = s->stay_open;
+        what->stays_open = s->stay_open;
         what->whole = *f;
         what->whole.scratch = what->whole.stress = what->whole.pressure = NULL;
         what->stripe = k;
@@ -112,6 +114,12 @@ dem_status stripes_copy(const stripes *s, const frames *f, dem_index number, con
     return give(&o, s, status);
 }
 
+dem_status stripes_close(const stripes *s, const frames *f)
+{
+    orders o;
+    return s->n > 0 && s->stay_open ? give(&o, s, prepare(&o, s, f, 0, STRIPE_CLOSE)) : DEM_OK;
+}
+
 dem_status stripes_publish(const stripes *s, const frames *f, dem_index number)
 {
     orders o;
@@ -123,33 +131,70 @@ dem_status stripes_publish(const stripes *s, const frames *f, dem_index number)
 
 /* ---- frames ---- */
 
+/* A frame of no more bytes is gathered and goes to the writers at once, as orders take longer than its data; of a larger
+ * one each array goes when it is there. */
+enum { GATHERED = 1 << 22 };
+
 typedef struct appending {
     const stripes *stripes;
     const frames *frames;
     dem_index number;
+    char *gathered; /* NULL: arrays go one by one */
+    size_t *at;     /* [n + 1] where the data of each stripe begin */
 } appending;
 
-static dem_status write_stripes(void *context, int array, const void *data)
+/* Has arrays `first` to `end` - 1 written. */
+static dem_status write_arrays(const appending *a, int first, int end, const char *data)
 {
-    const appending *a = context;
     const stripes *s = a->stripes;
     orders o;
     dem_status status = prepare(&o, s, a->frames, a->number, STRIPE_WRITE);
     for (int k = 0; k < s->n && status == DEM_OK; k++) {
-        const size_t first = frame_stripes_first_byte(a->frames, array, k),
-                     end = frame_stripes_first_byte(a->frames, array, k + 1);
-        o.contents[k].array = array;
+        o.contents[k].first = first;
+        o.contents[k].end = end;
         o.contents[k].frames.first = (hsize_t)a->frames->n;
-        o.list[k].n_data = end - first;
-        o.list[k].data = (const char *)data + first;
+        o.list[k].n_data = a->at[k + 1] - a->at[k];
+        o.list[k].data = data + a->at[k];
     }
     return give(&o, s, status);
 }
 
+static dem_status take_array(void *context, int array, const void *data)
+{
+    const appending *a = context;
+    for (int k = 0; k < a->stripes->n && a->gathered != NULL; k++) {
+        const size_t first = frame_stripes_first_byte(a->frames, array, k);
+        const size_t bytes = frame_stripes_first_byte(a->frames, array, k + 1) - first;
+        char *to = a->gathered + a->at[k] + frame_stripes_bytes(a->frames, k, 0, array);
+        memcpy(to, (const char *)data + first, bytes);
+    }
+    if (a->gathered != NULL) return DEM_OK;
+    for (int k = 0; k <= a->stripes->n; k++) a->at[k] = frame_stripes_first_byte(a->frames, array, k);
+    return write_arrays(a, array, array + 1, data);
+}
+
+static dem_status append(appending *a, const dem_simulation *simulation)
+{
+    const int n = a->stripes->n;
+    a->at = calloc((size_t)n + 1, sizeof *a->at);
+    CHECK_MEMORY(a->at);
+    for (int k = 0; k < n; k++) a->at[k + 1] = a->at[k] + frame_stripes_bytes(a->frames, k, 0, FRAME_ARRAYS);
+    if (a->at[n] <= GATHERED) {
+        a->gathered = calloc(1, a->at[n]);
+        CHECK_MEMORY(a->gathered);
+    }
+    TRY(frame_arrays_hand_out(a->frames, simulation, take_array, a));
+    return a->gathered != NULL ? write_arrays(a, 0, FRAME_ARRAYS, a->gathered) : DEM_OK;
+}
+
 dem_status stripes_append(const stripes *s, const frames *f, dem_index number, const dem_simulation *simulation)
 {
-    appending a = {s, f, number};
-    return s->n > 0 ? frame_arrays_hand_out(f, simulation, write_stripes, &a) : DEM_OK;
+    appending a = {.stripes = s, .frames = f, .number = number};
+    if (s->n == 0) return DEM_OK;
+    const dem_status status = append(&a, simulation);
+    free(a.gathered);
+    free(a.at);
+    return status;
 }
 
 dem_status stripes_map(const stripes *s, const frames *f, dem_index number, const hdf5_file *file,

@@ -12,6 +12,7 @@ typedef struct stripes {
     int n;                            /**< stripes; 0: none */
     const dem_simulation *simulation; /**< whose ranks write */
     const char *path;                 /**< NAME.vtkhdf */
+    bool stay_open;                   /**< between frames (dem_trajectory_options.stays_open) */
 } stripes;
 
 /** Makes the files of a number, without frames. Those of number 0 have temporary names.
@@ -20,6 +21,9 @@ dem_status stripes_create(const stripes *s, const frames *f, dem_index number);
 
 /** Writes the arrays of the present state of the simulation as a frame. */
 dem_status stripes_append(const stripes *s, const frames *f, dem_index number, const dem_simulation *simulation);
+
+/** Closes what is open, before the files are read. */
+dem_status stripes_close(const stripes *s, const frames *f);
 
 /** Copies frames of a file that has all rows, be they in stripes or not, behind those that are there. */
 dem_status stripes_copy(const stripes *s, const frames *f, dem_index number, const char *source, hdf5_span span);

@@ -152,6 +152,14 @@ static dem_status on_break(void *context, const dem_simulation *simulation, cons
     return DEM_OK;
 }
 
+/* Rows that are left go to the part, before it and its stripes are read or renamed. */
+static dem_status close_files(dem_trajectory *t)
+{
+    TRY(flush(t));
+    TRY(close_part(t));
+    return stripes_close(&t->rows.stripes, &t->rows.frames);
+}
+
 /* ---- checkpoints ---- */
 
 /* Names of the entries in a checkpoint. */
@@ -449,8 +457,7 @@ dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_checkpoi
     checkpointed then;
     CHECK(trajectory != NULL && checkpoint != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_segment: an argument is NULL");
     CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more segments", path_of(trajectory));
-    TRY(flush(trajectory));
-    TRY(close_part(trajectory));
+    TRY(close_files(trajectory));
     dem_status status = read_checkpoint(&then, trajectory, checkpoint);
     if (status == DEM_OK) status = trajectory_parts_cut(&trajectory->segments, &trajectory->rows, then.rows);
     free(then.rows);
@@ -491,8 +498,7 @@ dem_status dem_trajectory_finish(dem_trajectory *trajectory)
 {
     CHECK(trajectory != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_finish: trajectory is NULL");
     CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished already", path_of(trajectory));
-    TRY(flush(trajectory));
-    TRY(close_part(trajectory));
+    TRY(close_files(trajectory));
     TRY(trajectory_parts_join(&trajectory->segments, &trajectory->rows));
     trajectory->finished = 1;
     TRY(show_bodies(trajectory, path_of(trajectory)));

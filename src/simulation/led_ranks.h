@@ -33,6 +33,7 @@ struct led_run {
     dem_simulation *part;    /* NULL: there is none */
     shared_peaks peaks;      /* of the part, and on rank 0 whose they are */
     section_streams streams; /* for sections of files */
+    void *kept;              /* for orders (base/rank_order.h) */
     bool is_observed;
     frame_relay frames[OBSERVERS_MOST];
     double busy, entered;       /* s of work since nodes were shared out, and in all at led_ranks_enter() */

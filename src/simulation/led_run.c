@@ -31,6 +31,7 @@ static void drop(led_run *l)
 {
     shared_peaks_drop(&l->peaks);
     section_streams_free(&l->streams);
+    rank_order_forget(&l->kept);
     dem_simulation_destroy(l->part);
     l->part = NULL;
     l->is_observed = false;
@@ -258,7 +259,7 @@ static void take_part(led_run *l, const rank_call *o)
         (void)pack_sections(l, NULL, (int)o->number);
         break;
     case RANK_CALL_OBEY:
-        (void)shared_orders_pass(&l->ranks, NULL, 0);
+        (void)shared_orders_pass(&l->ranks, &l->kept, NULL, 0);
         break;
     case RANK_CALL_DROP:
         drop(l);
@@ -359,7 +360,7 @@ dem_status rank_order_give(const dem_simulation *simulation, const rank_order *o
     led_run *l = simulation->leads;
     (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_OBEY});
     led_ranks_enter(l);
-    const dem_status status = shared_orders_pass(&l->ranks, orders, n);
+    const dem_status status = shared_orders_pass(&l->ranks, &l->kept, orders, n);
     led_ranks_leave(l);
     return status;
 }

@@ -21,6 +21,7 @@ typedef struct passing {
     const rank_order **orders;     /* [ranks] on rank 0, NULL: none */
     ranks_message *full, *nothing; /* [ranks] */
     void *what, *data;             /* on other ranks */
+    void **kept;
 } passing;
 
 static dem_status allocate(passing *p)
@@ -91,8 +92,8 @@ static dem_status make_room(passing *p)
 static dem_status obey(const passing *p)
 {
     const rank_order *own = p->orders[0];
-    if (p->ranks->rank == 0) return own != NULL ? rank_order_obey(own->what, own->data) : DEM_OK;
-    return p->sizes->what > 0 ? rank_order_obey(p->what, p->data) : DEM_OK;
+    if (p->ranks->rank == 0) return own != NULL ? rank_order_obey(p->kept, own->what, own->data) : DEM_OK;
+    return p->sizes->what > 0 ? rank_order_obey(p->kept, p->what, p->data) : DEM_OK;
 }
 
 static dem_status pass(passing *p)
@@ -104,9 +105,9 @@ static dem_status pass(passing *p)
     return reduce_status(p->ranks, obey(p), 0.0);
 }
 
-dem_status shared_orders_pass(const ranks *r, const rank_order *orders, int n)
+dem_status shared_orders_pass(const ranks *r, void **kept, const rank_order *orders, int n)
 {
-    passing p = {.ranks = r};
+    passing p = {.ranks = r, .kept = kept};
     dem_status status = reduce_status(r, allocate(&p), 0.0);
     if (status == DEM_OK) {
         sort(&p, orders, n);

@@ -7,8 +7,9 @@
 #include "base/ranks.h"
 
 /** Passes n orders on, at most one to each rank, and carries out that of this rank. Collective.
+ *  \param kept    as rank_order_obey() has it
  *  \param orders  [n] on rank 0; not looked at elsewhere
  *  \return the failure of the lowest rank that has one, on all ranks */
-dem_status shared_orders_pass(const ranks *r, const rank_order *orders, int n);
+dem_status shared_orders_pass(const ranks *r, void **kept, const rank_order *orders, int n);
 
 #endif
