@@ -4,6 +4,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "base/random.h"
+
 /* An array whose items are `n` numbers. */
 #define OF(kind, member, n)                                                                                            \
     {                                                                                                                  \
@@ -57,4 +59,15 @@ dem_index lattice_count(const dem_lattice *lattice, lattice_items of)
 {
     if (of == LATTICE_NODES) return lattice->n_nodes;
     return of == LATTICE_SPRINGS ? lattice->n_springs : lattice->n_triangles;
+}
+
+uint64_t lattice_arrays_hash(const dem_lattice *l)
+{
+    const uint64_t n = (uint64_t)l->n_nodes, s = (uint64_t)l->n_springs, t = (uint64_t)l->n_triangles;
+    uint64_t hash = random_mix(n) ^ random_mix(s + 1) ^ random_mix(t + 2);
+    for (int k = 0; k < LATTICE_ARRAYS; k++) {
+        const lattice_array *a = &lattice_arrays[k];
+        hash = random_hash(hash, lattice_array_of(l, a), (size_t)lattice_count(l, a->of) * a->size);
+    }
+    return hash;
 }

@@ -30,4 +30,7 @@ bool lattice_array_is_corners(const lattice_array *array);
 /** How many nodes, springs or triangles a lattice has. */
 dem_index lattice_count(const dem_lattice *lattice, lattice_items of);
 
+/** A number that hardly any two lattices have which differ in some array. */
+uint64_t lattice_arrays_hash(const dem_lattice *lattice);
+
 #endif

@@ -20,17 +20,6 @@
 
 /* ---- whether all have the same ---- */
 
-static uint64_t hash_of_lattice(const dem_lattice *l)
-{
-    const uint64_t n = (uint64_t)l->n_nodes, s = (uint64_t)l->n_springs, t = (uint64_t)l->n_triangles;
-    uint64_t hash = random_mix(n) ^ random_mix(s + 1) ^ random_mix(t + 2);
-    for (int k = 0; k < LATTICE_ARRAYS; k++) {
-        const lattice_array *a = &lattice_arrays[k];
-        hash = random_hash(hash, lattice_array_of(l, a), (size_t)lattice_count(l, a->of) * a->size);
-    }
-    return hash;
-}
-
 /* Places, laws of impacts and friction, and of the motion. A function has another address in each process: what it
  * returns is compared in a run (simulation/likeness.c). */
 static uint64_t hash_of_obstacle(uint64_t hash, const dem_obstacle *o)
@@ -60,7 +49,7 @@ static uint64_t hash_of_obstacles(uint64_t hash, const dem_obstacle *list, dem_i
 
 static uint64_t hash_of(const dem_model *m)
 {
-    return hash_of_obstacles(hash_of_lattice(&m->lattice), m->obstacles.list, m->obstacles.n);
+    return hash_of_obstacles(lattice_arrays_hash(&m->lattice), m->obstacles.list, m->obstacles.n);
 }
 
 static dem_status check_same(const ranks *r, const dem_model *m)

@@ -43,11 +43,14 @@ static const char *shorten(char *cause)
     return words;
 }
 
+enum { SMALL = 0x10000 }; /* bytes by which a file in memory grows */
+
 /* Closing the file closes all that is open in it, and no lock is taken, so that looking at a file does not stop a
  * run. */
-static hid_t make_access(void)
+static hid_t make_access(bool in_memory)
 {
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    if (in_memory && H5Pset_fapl_core(access, SMALL, true) < 0) return H5I_INVALID_HID;
     if (access >= 0 && H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 && H5Pset_file_locking(access, 0, 1) >= 0)
         return access;
     return H5I_INVALID_HID;
@@ -183,7 +186,7 @@ static void restore(const hdf5_file *file)
 }
 
 /* On failure everything is as before; on success the lock is held until hdf5_close(). */
-static dem_status open_file(hdf5_file *out, const char *path, unsigned access)
+static dem_status open_with(hdf5_file *out, const char *path, unsigned access, bool in_memory)
 {
     hdf5_file file = {.id = H5I_INVALID_HID, .path = path};
     dem_status status = DEM_OK;
@@ -192,7 +195,7 @@ static dem_status open_file(hdf5_file *out, const char *path, unsigned access)
         CHECK_MEMORY(file.deflater);
     }
     prepare(&file);
-    const hid_t how = make_access();
+    const hid_t how = make_access(in_memory);
     /* An existing file is emptied, or opened as it is. */
     if (access == H5F_ACC_TRUNC)
         file.id = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, how);
@@ -206,6 +209,11 @@ static dem_status open_file(hdf5_file *out, const char *path, unsigned access)
         restore(&file);
     if (status != DEM_OK) free(file.deflater);
     return status;
+}
+
+static dem_status open_file(hdf5_file *out, const char *path, unsigned access)
+{
+    return open_with(out, path, access, false);
 }
 
 /* Makes the closed file longer, so that a full disk is met here and not inside of HDF5; HDF5 cuts off at the next
@@ -269,6 +277,11 @@ dem_status hdf5_open_new(hdf5_file *out, const char *path, hsize_t bytes)
     TRY(open_file(&empty, path, H5F_ACC_TRUNC));
     TRY(hdf5_close(&empty, DEM_OK));
     return hdf5_open_write(out, path, bytes);
+}
+
+dem_status hdf5_open_small(hdf5_file *out, const char *path)
+{
+    return open_with(out, path, H5F_ACC_TRUNC, true);
 }
 
 void hdf5_keep(hdf5_file *file)

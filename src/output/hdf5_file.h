@@ -39,6 +39,10 @@ dem_status hdf5_open_write(hdf5_file *out, const char *path, hsize_t bytes);
 /** The same with a new, empty file in place of an older one. */
 dem_status hdf5_open_new(hdf5_file *out, const char *path, hsize_t bytes);
 
+/** A new file of a few kilobytes in place of an older one: it is in memory until it is closed, and then written at
+ *  once. Until that it is empty. */
+dem_status hdf5_open_small(hdf5_file *out, const char *path);
+
 /** Keeps the datasets that rows are appended to, or read from, from now on open until the file is closed. */
 void hdf5_keep(hdf5_file *file);
 

@@ -3,13 +3,18 @@
  * the file that had the name before. */
 #include "output/stripe_file.h"
 
+#include "base/publish.h"
 #include "base/rank_order.h"
 #include "base/status.h"
 #include "output/hdf5_attribute.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+/* The attribute of its root that says of which run it is. */
+static const char mark[] = "stripe_of";
 
 /* What a rank keeps from one order to the next: a file that is paused. */
 typedef struct open_stripe {
@@ -55,14 +60,44 @@ static dem_status leave_kept(void **kept, bool stays_open, dem_status status)
     return status;
 }
 
+/* It is marked before there is anything else in it, and on the disk. */
 static dem_status create(const stripe_order *o, const frames *stripe)
 {
     hdf5_file file;
     (void)unlink(o->path);
-    TRY(hdf5_open_new(&file, o->path, 0));
-    dem_status status = hdf5_write_attribute(&file, "/", STRIPE_MARK, HDF5_I64, 1, &o->number);
+    TRY(hdf5_open_small(&file, o->path));
+    dem_status status = hdf5_write_attribute(&file, "/", mark, HDF5_I64, 1, &o->run);
     if (status == DEM_OK) status = frame_stripes_create(stripe, &file);
-    return hdf5_close(&file, status);
+    TRY(hdf5_close(&file, status));
+    return publish_sync(o->path);
+}
+
+static bool contains(const unsigned char *bytes, size_t n, const void *what, size_t size)
+{
+    for (size_t k = 0; k + size <= n; k++)
+        if (memcmp(bytes + k, what, size) == 0) return true;
+    return false;
+}
+
+/* Where HDF5 has put the mark when the file was made it stays. */
+static bool begins_with_mark(const char *path, int64_t run)
+{
+    enum { HEAD = 8192 };
+    unsigned char head[HEAD], little[sizeof run];
+    FILE *file = fopen(path, "rb");
+    if (file == NULL) return false;
+    const size_t n = fread(head, 1, HEAD, file);
+    (void)fclose(file);
+    for (size_t k = 0; k < sizeof little; k++) little[k] = (unsigned char)((uint64_t)run >> 8 * k);
+    return n == 0 || (contains(head, n, mark, sizeof mark - 1) && contains(head, n, little, sizeof little));
+}
+
+bool stripe_file_is_of(const char *path, int64_t run)
+{
+    hdf5_file file;
+    const dem_status status = hdf5_open_read(&file, path);
+    if (status == DEM_ERROR_IO) return begins_with_mark(path, run);
+    return status == DEM_OK && hdf5_close(&file, hdf5_expect_attribute(&file, "/", mark, run)) == DEM_OK;
 }
 
 static dem_status write_arrays(const stripe_order *o, const frames *stripe, const hdf5_file *file, const char *data)

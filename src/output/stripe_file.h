@@ -7,9 +7,6 @@
 
 #include "output/frame_stripes.h"
 
-/** The attribute of its root with that number. */
-#define STRIPE_MARK "stripe_of"
-
 typedef enum stripe_order_kind {
     STRIPE_CREATE, /* the file, without frames, in place of one of that name */
     STRIPE_WRITE,  /* arrays of a frame: the data of the order */
@@ -24,9 +21,12 @@ typedef struct stripe_order {
     int stripe;
     int first, end;   /* arrays: those of STRIPE_WRITE */
     bool stays_open;  /* after STRIPE_WRITE */
-    dem_index number; /* of the segment that the stripe is of; 0: of the whole */
+    int64_t run;      /* whose it is */
     hdf5_span frames; /* of STRIPE_WRITE only the first */
     char path[HDF5_PATH], other[HDF5_PATH];
 } stripe_order;
+
+/** Whether a file was begun as a stripe of a run, be it torn now; or holds nothing, as one does for a moment. */
+bool stripe_file_is_of(const char *path, int64_t run);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "base/rank_order.h"
 #include "base/status.h"
-#include "output/hdf5_attribute.h"
+#include "lattice/lattice_arrays.h"
 #include "output/stripe_file.h"
 
 #include <dirent.h>
@@ -45,6 +45,12 @@ static dem_status print_path(char out[HDF5_PATH], const stripes *s, dem_index nu
     return DEM_OK;
 }
 
+/* Whose files there are: none of another lattice. */
+static int64_t run_of(const stripes *s)
+{
+    return (int64_t)lattice_arrays_hash(dem_model_lattice(s->model));
+}
+
 /* ---- orders ---- */
 
 /* To all writers at once. */
@@ -56,6 +62,7 @@ typedef struct orders {
 static dem_status prepare(orders *o, const stripes *s, const frames *f, dem_index number, stripe_order_kind kind)
 {
     const int ranks = rank_order_ranks(s->simulation);
+    const int64_t run = kind == STRIPE_CREATE ? run_of(s) : 0;
     *o = (orders){calloc((size_t)s->n, sizeof *o->contents), calloc((size_t)s->n, sizeof *o->list)};
     CHECK(o->contents != NULL && o->list != NULL, DEM_ERROR_MEMORY, "out of memory for %d stripes", s->n);
     for (int k = 0; k < s->n; k++) {
@@ -66,7 +73,7 @@ static dem_status prepare(orders *o, const stripes *s, const frames *f, dem_inde
         what->whole = *f;
         what->whole.scratch = what->whole.stress = what->whole.pressure = NULL;
         what->stripe = k;
-        what->number = number;
+        what->run = run;
         TRY(print_path(what->path, s, number, k));
         if (number == 0) memcpy(what->path + strlen(what->path), temporary, sizeof temporary);
         o->list[k] = (rank_order){(int)((long long)k * ranks / s->n), sizeof *what, what, 0, NULL};
@@ -82,22 +89,35 @@ static dem_status give(const orders *o, const stripes *s, dem_status status)
     return status;
 }
 
-/* A file of another run that stands under the name of a stripe is not overwritten. */
-static dem_status check_free(const stripes *s, dem_index number)
+/* A file that this run has not begun is not overwritten. */
+static dem_status check_path(const char *path, int64_t run)
+{
+    CHECK(access(path, F_OK) != 0 || stripe_file_is_of(path, run), DEM_ERROR_IO,
+          "%s is in the way of a stripe of that name", path);
+    return DEM_OK;
+}
+
+static dem_status check_names(const stripes *s, dem_index number)
 {
     char path[HDF5_PATH];
-    for (int k = 0; k < s->n && number > 0; k++) {
+    const int64_t run = run_of(s);
+    for (int k = 0; k < s->n; k++) {
         TRY(print_path(path, s, number, k));
-        CHECK(access(path, F_OK) != 0, DEM_ERROR_IO, "%s is in the way of a stripe of that name", path);
+        TRY(check_path(path, run));
+        if (number > 0) continue;
+        memcpy(path + strlen(path), temporary, sizeof temporary);
+        TRY(check_path(path, run));
     }
     return DEM_OK;
 }
 
+/* What the whole will need is looked at early. */
 dem_status stripes_create(const stripes *s, const frames *f, dem_index number)
 {
     orders o;
     if (s->n == 0) return DEM_OK;
-    TRY(check_free(s, number));
+    TRY(check_names(s, number));
+    if (number > 0) TRY(check_names(s, 0));
     return give(&o, s, prepare(&o, s, f, number, STRIPE_CREATE));
 }
 
@@ -280,15 +300,6 @@ static bool keeps_whole(const stripes *s, const ending *e, dem_index above)
     return !e->is_temporary && e->number == 0 && e->n == s->n;
 }
 
-/* A file that cannot be read is one that a kill has left. */
-static bool is_stripe(const char *path, const ending *e)
-{
-    hdf5_file file;
-    const dem_status status = e->is_temporary ? DEM_ERROR_IO : hdf5_open_read(&file, path);
-    if (status != DEM_OK) return status == DEM_ERROR_IO;
-    return hdf5_close(&file, hdf5_expect_attribute(&file, "/", STRIPE_MARK, (dem_index)e->number)) == DEM_OK;
-}
-
 /* A folder that cannot be listed is left as it is. */
 static void remove_others(const stripes *s, keeps *stays, dem_index above)
 {
@@ -303,7 +314,7 @@ static void remove_others(const stripes *s, keeps *stays, dem_index above)
     while (files != NULL && (entry = readdir(files)) != NULL) {
         if (strncmp(entry->d_name, name, length) != 0 || !read_ending(entry->d_name + length, &e)) continue;
         const int n = snprintf(path, sizeof path, "%.*s%s", of_folder, s->path, entry->d_name);
-        if (n > 0 && n < HDF5_PATH && !stays(s, &e, above) && is_stripe(path, &e)) (void)unlink(path);
+        if (n > 0 && n < HDF5_PATH && !stays(s, &e, above) && stripe_file_is_of(path, run_of(s))) (void)unlink(path);
     }
     if (files != NULL) (void)closedir(files);
 }

@@ -13,10 +13,11 @@ typedef struct stripes {
     const dem_simulation *simulation; /**< whose ranks write */
     const char *path;                 /**< NAME.vtkhdf */
     bool stay_open;                   /**< between frames (dem_trajectory_options.stays_open) */
+    const dem_model *model;           /**< of the run, by whose lattice its files are known */
 } stripes;
 
 /** Makes the files of a number, without frames. Those of number 0 have temporary names.
- *  \return DEM_ERROR_IO, also if there is a file of such a name */
+ *  \return DEM_ERROR_IO, also if a file of such a name, or of one that the whole will need, was not begun by this run */
 dem_status stripes_create(const stripes *s, const frames *f, dem_index number);
 
 /** Writes the arrays of the present state of the simulation as a frame. */
@@ -35,8 +36,8 @@ dem_status stripes_publish(const stripes *s, const frames *f, dem_index number);
 dem_status stripes_map(const stripes *s, const frames *f, dem_index number, const hdf5_file *file,
                        frame_stripes_mapped n);
 
-/** Removes the files of numbers above `above`, and temporary ones, of any number of writers. What cannot be removed
- *  does no harm. */
+/** Removes the files of numbers above `above`, and temporary ones, of any number of writers, but none that this run
+ *  has not begun. What cannot be removed does no harm. */
 void stripes_prune(const stripes *s, dem_index above);
 
 /** The same where a new whole is there: all but its own. */
