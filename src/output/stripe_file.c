@@ -8,6 +8,7 @@
 #include "base/status.h"
 #include "output/hdf5_attribute.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -115,6 +116,17 @@ static dem_status write_frame(void **kept, const stripe_order *o, const frames *
     return leave_kept(kept, o->stays_open, write_arrays(o, stripe, &((open_stripe *)*kept)->file, data));
 }
 
+static dem_status link_file(const stripe_order *o, const frames *stripe)
+{
+    hdf5_file file;
+    TRY(hdf5_open_read(&file, o->other));
+    TRY(hdf5_close(&file, frame_arrays_check(stripe, &file, o->frames.count, false)));
+    (void)unlink(o->path);
+    CHECK(link(o->other, o->path) == 0, DEM_ERROR_IO, "%s: cannot be linked to %s (%s)", o->other, o->path,
+          strerror(errno));
+    return DEM_OK;
+}
+
 static dem_status copy(const stripe_order *o, const frames *stripe)
 {
     hdf5_file from, to;
@@ -138,6 +150,8 @@ dem_status rank_order_obey(void **kept, const void *what, const void *data)
         return write_frame(kept, o, &stripe, data);
     case STRIPE_CLOSE:
         return DEM_OK;
+    case STRIPE_LINK:
+        return link_file(o, &stripe);
     case STRIPE_COPY:
         return copy(o, &stripe);
     default:

@@ -11,6 +11,7 @@ typedef enum stripe_order_kind {
     STRIPE_CREATE, /* the file, without frames, in place of one of that name */
     STRIPE_WRITE,  /* arrays of a frame: the data of the order */
     STRIPE_CLOSE,  /* the file that is open, before anybody reads it */
+    STRIPE_LINK,   /* a file of the same stripe, which has just so many frames, gets a second name */
     STRIPE_COPY,   /* frames from another file, which has all rows */
     STRIPE_PUBLISH /* the file, under another name or its own */
 } stripe_order_kind;

@@ -121,6 +121,19 @@ dem_status stripes_create(const stripes *s, const frames *f, dem_index number)
     return give(&o, s, prepare(&o, s, f, number, STRIPE_CREATE));
 }
 
+dem_status stripes_link(const stripes *s, const frames *f, dem_index number, hsize_t n)
+{
+    orders o;
+    if (s->n == 0) return DEM_OK;
+    TRY(check_names(s, 0));
+    dem_status status = prepare(&o, s, f, 0, STRIPE_LINK);
+    for (int k = 0; k < s->n && status == DEM_OK; k++) {
+        o.contents[k].frames.count = n;
+        status = print_path(o.contents[k].other, s, number, k);
+    }
+    return give(&o, s, status);
+}
+
 dem_status stripes_copy(const stripes *s, const frames *f, dem_index number, const char *source, hdf5_span span)
 {
     orders o;

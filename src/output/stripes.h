@@ -26,6 +26,9 @@ dem_status stripes_append(const stripes *s, const frames *f, dem_index number, c
 /** Closes what is open, before the files are read. */
 dem_status stripes_close(const stripes *s, const frames *f);
 
+/** Makes the files of number 0 of those of another one, if these have n frames and no more, and can have two names. */
+dem_status stripes_link(const stripes *s, const frames *f, dem_index number, hsize_t n);
+
 /** Copies frames of a file that has all rows, be they in stripes or not, behind those that are there. */
 dem_status stripes_copy(const stripes *s, const frames *f, dem_index number, const char *source, hdf5_span span);
 

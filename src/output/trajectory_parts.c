@@ -400,11 +400,14 @@ static dem_status append_all(const segments *s, const trajectory_rows *r, const 
     return trajectory_rows_copy(r, from, to, s->spans);
 }
 
-/* Those of the whole, of all files. Their names are new, or they replace those of a shorter run, which has their first
+/* Those of the whole, of all files; those of a part alone, where they have all of it, get a second name. The names are new, or they replace those of a shorter run, which has their first
  * frames: so its whole, which may still be there, has what it had. */
 static dem_status make_stripes(segments *s, const trajectory_rows *r)
 {
     hsize_t *at = &s->spans[ROWS_FRAMES].at;
+    const hsize_t all = trajectory_rows_total(r, ROWS_FRAMES);
+    if (s->n == 0 && stripes_link(&r->stripes, &r->frames, 1, all) == DEM_OK)
+        return stripes_publish(&r->stripes, &r->frames, 0);
     TRY(stripes_create(&r->stripes, &r->frames, 0));
     *at = 0;
     for (dem_index k = 0; k <= s->n && r->stripes.n > 0; k++) {

@@ -22,20 +22,22 @@ typedef struct written {
     dem_options options;
     const char *path;
     int writers;
-    bool stays_open, is_left; /* left: with a part, as by a kill */
-    char failure[TEXT];       /* empty: none */
+    bool stays_open;
+    bool has_part_alone; /* and no segment */
+    bool is_left;        /* with a part, as by a kill */
+    char failure[TEXT];  /* empty: none */
 } written;
 
 /* The segment ends at a checkpoint that is behind: frames are left for the part. */
-static dem_status follow(dem_simulation *s, dem_trajectory *t, bool is_left)
+static dem_status follow(dem_simulation *s, dem_trajectory *t, const written *w)
 {
     dem_observer observer = {.struct_size = sizeof observer};
     dem_status status = dem_trajectory_observer(t, &observer);
     if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
     if (status == DEM_OK) status = dem_simulation_advance(s, 0.5 * t_whole);
-    if (status == DEM_OK) status = dem_trajectory_segment(t, dem_simulation_checkpoint(s));
+    if (status == DEM_OK && !w->has_part_alone) status = dem_trajectory_segment(t, dem_simulation_checkpoint(s));
     if (status == DEM_OK) status = dem_simulation_advance(s, t_whole);
-    return status == DEM_OK && !is_left ? dem_trajectory_finish(t) : status;
+    return status == DEM_OK && !w->is_left ? dem_trajectory_finish(t) : status;
 }
 
 /* \param leads  ranks that make the run; NULL: this process alone does */
@@ -50,7 +52,7 @@ static dem_status write_run(const written *w, const ranks *leads)
     dem_status status = dem_simulation_create(&s, w->model, &w->options);
     if (status == DEM_OK && leads != NULL) status = dem_private_lead(s, leads, &w->options, NULL);
     if (status == DEM_OK) status = dem_trajectory_create(&t, w->path, s, &options);
-    if (status == DEM_OK) status = follow(s, t, w->is_left);
+    if (status == DEM_OK) status = follow(s, t, w);
     dem_trajectory_destroy(t);
     dem_simulation_destroy(s);
     return status;
@@ -69,7 +71,7 @@ static written prepare(const dem_model *model, const char *path, int writers)
     return w;
 }
 
-static void check_stripes(bool stays_open)
+static void check_stripes(bool stays_open, bool has_part_alone)
 {
     scratch_folder folder;
     folder_open(&folder);
@@ -81,6 +83,7 @@ static void check_stripes(bool stays_open)
     dem_model *model = make_falling(0.5);
     written alone = prepare(model, one, 0), shared = prepare(model, led, 2);
     shared.stays_open = stays_open;
+    shared.has_part_alone = has_part_alone;
     assert_ok(write_run(&alone, NULL));
     rank_runs_lead(N_RANKS, NULL, write_as_leader, &shared);
     assert_string_equal(shared.failure, "");
@@ -93,12 +96,17 @@ static void check_stripes(bool stays_open)
 
 TEST(stripes_of_a_whole_and_of_a_segment_read_as_the_files_of_one_process)
 {
-    check_stripes(false);
+    check_stripes(false, false);
 }
 
 TEST(and_so_do_those_that_stay_open_between_frames)
 {
-    check_stripes(true);
+    check_stripes(true, false);
+}
+
+TEST(and_so_do_those_of_a_part_alone)
+{
+    check_stripes(true, true);
 }
 
 /* ---- what is in the way ---- */
