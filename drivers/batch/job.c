@@ -10,6 +10,7 @@
 #include <dem/trajectory.h>
 
 #include "ask.h"
+#include "base/numbered_file.h"
 #include "checkpoint_file.h"
 #include "decimal.h"
 #include "deck.h"
@@ -305,11 +306,11 @@ static result describe(const job *j)
 
 static void list_stripes(const job *j)
 {
-    const long n = j->command->writers;
-    char end[64], first[OUTPUT_PATH], last[OUTPUT_PATH];
-    (void)snprintf(end, sizeof end, ".1of%ld.h5", n);
+    const int n = (int)j->command->writers;
+    char end[NUMBERED_FILE], first[OUTPUT_PATH], last[OUTPUT_PATH];
+    numbered_file_print(end, (numbered_file){.stripe = 1, .n = n});
     output_beside(first, j->path, end);
-    (void)snprintf(end, sizeof end, ".%ldof%ld.h5", n, n);
+    numbered_file_print(end, (numbered_file){.stripe = n, .n = n});
     output_beside(last, j->path, end);
     if (n > 1 && access(first, F_OK) == 0) (void)fprintf(j->log.out, ", %s to %s", first, last);
 }

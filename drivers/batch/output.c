@@ -12,6 +12,7 @@
 
 #include <dem/trajectory.h>
 
+#include "base/numbered_file.h"
 #include "decimal.h"
 #include "difference.h"
 
@@ -186,11 +187,10 @@ output_state output_claim(const char *path, const deck *d, char reason[OUTPUT_RE
 
 /* ---- setting aside ---- */
 
-/* .00001.vtkhdf and so on, a segment. */
 static bool is_segment(const char *end)
 {
-    const size_t n = end[0] == '.' ? strspn(end + 1, "0123456789") : 0;
-    return n >= 5 && strcmp(end + 1 + n, suffix) == 0;
+    numbered_file file;
+    return numbered_file_read(&file, end) && file.n == 0;
 }
 
 /* What is left of the name of a file of this output behind the output's name; NULL if it is none. */
@@ -206,13 +206,10 @@ static const char *end_of(const char *file, const char *name)
     return is_segment(file + n) ? file + n : NULL;
 }
 
-/* .1of4.h5, or .00001.1of4.h5, a stripe of the whole or of a segment. */
 static bool is_stripe(const char *end)
 {
-    int whole = 0, segment = 0;
-    (void)sscanf(end, ".%*[0-9]of%*[0-9].h5%n", &whole);
-    (void)sscanf(end, ".%*[0-9].%*[0-9]of%*[0-9].h5%n", &segment);
-    return (whole > 0 && end[whole] == '\0') || (segment > 0 && end[segment] == '\0');
+    numbered_file file;
+    return numbered_file_read(&file, end) && file.n > 0 && !file.is_temporary;
 }
 
 /* Other files have their rows under these names, which they would go on to look for. */

@@ -168,7 +168,7 @@ dem_status hdf5_chunks_unpack(hid_t dataset, const hsize_t *start, const hsize_t
 }
 
 /* Of each read that converts numbers HDF5 fills a buffer of 1 MiB with zeros, which takes longer than few numbers do,
- * unless it is told that less will do: for a number it takes no more than 16 bytes. */
+ * unless less is asked for: for a number it needs no more than 16 bytes. */
 static hid_t make_transfer(const hsize_t *count, int rank)
 {
     const hsize_t usual = 1 << 20;

@@ -3,6 +3,7 @@
  * so that stripes are spread over machines. */
 #include "output/stripes.h"
 
+#include "base/numbered_file.h"
 #include "base/rank_order.h"
 #include "base/status.h"
 #include "lattice/lattice_arrays.h"
@@ -15,40 +16,39 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char temporary[] = ".new";
-
 enum { SUFFIX = sizeof ".vtkhdf" - 1 };
 
 /* ---- names ---- */
-
-/* The end of a name, behind NAME. */
-static void print_end(char *out, size_t size, const stripes *s, dem_index number, int k)
-{
-    if (number > 0)
-        (void)snprintf(out, size, ".%05lld.%dof%d.h5", (long long)number, k + 1, s->n);
-    else
-        (void)snprintf(out, size, ".%dof%d.h5", k + 1, s->n);
-}
 
 static int stem_of(const stripes *s)
 {
     return (int)strlen(s->path) - SUFFIX;
 }
 
-static dem_status print_path(char out[HDF5_PATH], const stripes *s, dem_index number, int k)
+static dem_status print_path(char out[HDF5_PATH], const stripes *s, numbered_file file)
 {
-    char end[64];
-    print_end(end, sizeof end, s, number, k);
+    char end[NUMBERED_FILE];
+    numbered_file_print(end, file);
     const int n = snprintf(out, HDF5_PATH, "%.*s%s", stem_of(s), s->path, end);
-    CHECK(n > 0 && (size_t)n + sizeof temporary <= HDF5_PATH, DEM_ERROR_IO, "%s: the name of a stripe is too long",
-          s->path);
+    CHECK(n > 0 && n < HDF5_PATH, DEM_ERROR_IO, "%s: the name of a stripe is too long", s->path);
     return DEM_OK;
 }
 
-/* Whose files there are: none of another lattice. */
-static int64_t run_of(const stripes *s)
+/* Stripe k from 0 on, under its final name. */
+static numbered_file name_of(const stripes *s, dem_index number, int k)
 {
-    return (int64_t)lattice_arrays_hash(dem_model_lattice(s->model));
+    return (numbered_file){.segment = number, .stripe = k + 1, .n = s->n};
+}
+
+/* Those of the whole have other names until they are. */
+static numbered_file name_at_first(const stripes *s, dem_index number, int k)
+{
+    return (numbered_file){.segment = number, .stripe = k + 1, .n = s->n, .is_temporary = number == 0};
+}
+
+int64_t stripes_run(const dem_model *model)
+{
+    return (int64_t)lattice_arrays_hash(dem_model_lattice(model));
 }
 
 /* ---- orders ---- */
@@ -62,7 +62,6 @@ typedef struct orders {
 static dem_status prepare(orders *o, const stripes *s, const frames *f, dem_index number, stripe_order_kind kind)
 {
     const int ranks = rank_order_ranks(s->simulation);
-    const int64_t run = kind == STRIPE_CREATE ? run_of(s) : 0;
     *o = (orders){calloc((size_t)s->n, sizeof *o->contents), calloc((size_t)s->n, sizeof *o->list)};
     CHECK(o->contents != NULL && o->list != NULL, DEM_ERROR_MEMORY, "out of memory for %d stripes", s->n);
     for (int k = 0; k < s->n; k++) {
@@ -73,9 +72,8 @@ static dem_status prepare(orders *o, const stripes *s, const frames *f, dem_inde
         what->whole = *f;
         what->whole.scratch = what->whole.stress = what->whole.pressure = NULL;
         what->stripe = k;
-        what->run = run;
-        TRY(print_path(what->path, s, number, k));
-        if (number == 0) memcpy(what->path + strlen(what->path), temporary, sizeof temporary);
+        what->run = s->run;
+        TRY(print_path(what->path, s, name_at_first(s, number, k)));
         o->list[k] = (rank_order){(int)((long long)k * ranks / s->n), sizeof *what, what, 0, NULL};
     }
     return DEM_OK;
@@ -100,13 +98,11 @@ static dem_status check_path(const char *path, int64_t run)
 static dem_status check_names(const stripes *s, dem_index number)
 {
     char path[HDF5_PATH];
-    const int64_t run = run_of(s);
     for (int k = 0; k < s->n; k++) {
-        TRY(print_path(path, s, number, k));
-        TRY(check_path(path, run));
-        if (number > 0) continue;
-        memcpy(path + strlen(path), temporary, sizeof temporary);
-        TRY(check_path(path, run));
+        TRY(print_path(path, s, name_of(s, number, k)));
+        TRY(check_path(path, s->run));
+        TRY(print_path(path, s, name_at_first(s, number, k)));
+        TRY(check_path(path, s->run));
     }
     return DEM_OK;
 }
@@ -129,7 +125,7 @@ dem_status stripes_link(const stripes *s, const frames *f, dem_index number, hsi
     dem_status status = prepare(&o, s, f, 0, STRIPE_LINK);
     for (int k = 0; k < s->n && status == DEM_OK; k++) {
         o.contents[k].frames.count = n;
-        status = print_path(o.contents[k].other, s, number, k);
+        status = print_path(o.contents[k].other, s, name_of(s, number, k));
     }
     return give(&o, s, status);
 }
@@ -158,14 +154,15 @@ dem_status stripes_publish(const stripes *s, const frames *f, dem_index number)
     orders o;
     if (s->n == 0) return DEM_OK;
     dem_status status = prepare(&o, s, f, number, STRIPE_PUBLISH);
-    for (int k = 0; k < s->n && status == DEM_OK; k++) status = print_path(o.contents[k].other, s, number, k);
+    for (int k = 0; k < s->n && status == DEM_OK; k++)
+        status = print_path(o.contents[k].other, s, name_of(s, number, k));
     return give(&o, s, status);
 }
 
 /* ---- frames ---- */
 
-/* A frame of no more bytes is gathered and goes to the writers at once, as orders take longer than its data; of a larger
- * one each array goes when it is there. */
+/* A frame of no more bytes is gathered and goes to the writers at once, as orders take longer than its data; of a
+ * larger one each array goes when it is there. */
 enum { GATHERED = 1 << 22 };
 
 typedef struct appending {
@@ -240,8 +237,8 @@ dem_status stripes_map(const stripes *s, const frames *f, dem_index number, cons
     names = calloc((size_t)s->n, sizeof *names);
     CHECK_MEMORY(names);
     for (int k = 0; k < s->n && status == DEM_OK; k++) {
-        char end[64];
-        print_end(end, sizeof end, s, number, k);
+        char end[NUMBERED_FILE];
+        numbered_file_print(end, name_of(s, number, k));
         const int length = stem_of(s) - (int)(name - s->path);
         const int written = snprintf(names[k], sizeof names[k], "%.*s%s", length, name, end);
         if (written < 0 || (size_t)written >= sizeof names[k])
@@ -254,63 +251,24 @@ dem_status stripes_map(const stripes *s, const frames *f, dem_index number, cons
 
 /* ---- removing ---- */
 
-/* What is behind NAME in the name of a stripe. */
-typedef struct ending {
-    long long number; /* 0: of a whole */
-    int stripe, n;
-    bool is_temporary;
-} ending;
-
-/* Takes digits off the beginning of a text; a negative number if there are none, or too many. */
-static long long take_number(const char **text)
-{
-    const size_t n = strspn(*text, "0123456789");
-    const long long number = n > 0 && n <= 9 ? strtoll(*text, NULL, 10) : -1;
-    *text += n;
-    return number;
-}
-
-static bool take(const char **text, const char *word)
-{
-    const bool is_there = strncmp(*text, word, strlen(word)) == 0;
-    if (is_there) *text += strlen(word);
-    return is_there;
-}
-
-/* "1of4.h5" */
-static bool read_stripe(const char *text, ending *out)
-{
-    out->stripe = (int)take_number(&text);
-    if (out->stripe < 1 || !take(&text, "of")) return false;
-    out->n = (int)take_number(&text);
-    if (out->n < out->stripe || !take(&text, ".h5")) return false;
-    out->is_temporary = take(&text, temporary);
-    return *text == '\0';
-}
-
-static bool read_ending(const char *text, ending *out)
-{
-    *out = (ending){0};
-    if (!take(&text, ".")) return false;
-    if (read_stripe(text, out)) return true;
-    const char *begin = text;
-    out->number = take_number(&text);
-    return out->number > 0 && text - begin >= 5 && take(&text, ".") && read_stripe(text, out);
-}
-
 /* Whether a file is to stay. */
-typedef bool keeps(const stripes *s, const ending *e, dem_index above);
+typedef bool keeps(const stripes *s, const numbered_file *e, dem_index above);
 
-static bool keeps_up_to(const stripes *s, const ending *e, dem_index above)
+static bool keeps_up_to(const stripes *s, const numbered_file *e, dem_index above)
 {
     (void)s;
-    return !e->is_temporary && e->number <= above;
+    return !e->is_temporary && e->segment <= above;
 }
 
-static bool keeps_whole(const stripes *s, const ending *e, dem_index above)
+static bool keeps_whole(const stripes *s, const numbered_file *e, dem_index above)
 {
     (void)above;
-    return !e->is_temporary && e->number == 0 && e->n == s->n;
+    return !e->is_temporary && e->segment == 0 && e->n == s->n;
+}
+
+static bool read_name(numbered_file *out, const char *ending)
+{
+    return numbered_file_read(out, ending) && out->n > 0;
 }
 
 /* A folder that cannot be listed is left as it is. */
@@ -321,13 +279,15 @@ static void remove_others(const stripes *s, keeps *stays, dem_index above)
     const size_t length = (size_t)(stem_of(s) - of_folder);
     char path[HDF5_PATH];
     const struct dirent *entry;
-    ending e;
+    numbered_file e;
     (void)snprintf(path, sizeof path, "%.*s.", of_folder, s->path);
     DIR *files = opendir(path);
     while (files != NULL && (entry = readdir(files)) != NULL) {
-        if (strncmp(entry->d_name, name, length) != 0 || !read_ending(entry->d_name + length, &e)) continue;
+        if (strncmp(entry->d_name, name, length) != 0 || !read_name(&e, entry->d_name + length)) continue;
         const int n = snprintf(path, sizeof path, "%.*s%s", of_folder, s->path, entry->d_name);
-        if (n > 0 && n < HDF5_PATH && !stays(s, &e, above) && stripe_file_is_of(path, run_of(s))) (void)unlink(path);
+        if (n > 0 && n < HDF5_PATH && !stays(s, &e, above) &&
+            stripe_file_is_of(path, s->n > 0 ? s->run : stripes_run(s->model)))
+            (void)unlink(path);
     }
     if (files != NULL) (void)closedir(files);
 }

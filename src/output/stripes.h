@@ -13,11 +13,15 @@ typedef struct stripes {
     const dem_simulation *simulation; /**< whose ranks write */
     const char *path;                 /**< NAME.vtkhdf */
     bool stay_open;                   /**< between frames (dem_trajectory_options.stays_open) */
-    const dem_model *model;           /**< of the run, by whose lattice its files are known */
+    const dem_model *model;           /**< of the run */
+    int64_t run;                      /**< of stripes_run(), where n is not 0 */
 } stripes;
 
+/** A number by which files are known to be of this run: of its lattice. */
+int64_t stripes_run(const dem_model *model);
+
 /** Makes the files of a number, without frames. Those of number 0 have temporary names.
- *  \return DEM_ERROR_IO, also if a file of such a name, or of one that the whole will need, was not begun by this run */
+ *  \return DEM_ERROR_IO, also if a file of such a name, or one of the whole's names, was not begun by this run */
 dem_status stripes_create(const stripes *s, const frames *f, dem_index number);
 
 /** Writes the arrays of the present state of the simulation as a frame. */

@@ -15,6 +15,7 @@
  * segment carries its number as an attribute, so that no file of another run is taken for one. */
 #include "output/trajectory_parts.h"
 
+#include "base/numbered_file.h"
 #include "base/status.h"
 #include "output/hdf5_attribute.h"
 
@@ -74,7 +75,9 @@ void trajectory_parts_free(segments *s)
 static const char *name_segment(segments *s, dem_index number)
 {
     const char *whole = s->names[PARTS_WHOLE];
-    (void)snprintf(s->segment, s->size, "%.*s.%05lld" PARTS_SUFFIX, stem_of(whole), whole, (long long)number);
+    char end[NUMBERED_FILE];
+    numbered_file_print(end, (numbered_file){.segment = number});
+    (void)snprintf(s->segment, s->size, "%.*s%s", stem_of(whole), whole, end);
     return s->segment;
 }
 
@@ -400,8 +403,9 @@ static dem_status append_all(const segments *s, const trajectory_rows *r, const 
     return trajectory_rows_copy(r, from, to, s->spans);
 }
 
-/* Those of the whole, of all files; those of a part alone, where they have all of it, get a second name. The names are new, or they replace those of a shorter run, which has their first
- * frames: so its whole, which may still be there, has what it had. */
+/* Those of the whole, of all files; those of a part alone, where they have all of it, get a second name. The names are
+ * new, or they replace those of a shorter run, which has their first frames: so its whole, which may still be there, has
+ * what it had. */
 static dem_status make_stripes(segments *s, const trajectory_rows *r)
 {
     hsize_t *at = &s->spans[ROWS_FRAMES].at;
