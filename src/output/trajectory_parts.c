@@ -404,8 +404,8 @@ static dem_status append_all(const segments *s, const trajectory_rows *r, const 
 }
 
 /* Those of the whole, of all files; those of a part alone, where they have all of it, get a second name. The names are
- * new, or they replace those of a shorter run, which has their first frames: so its whole, which may still be there, has
- * what it had. */
+ * new, or they replace those of a shorter run, which has their first frames: so its whole, which may still be there,
+ * has what it had. */
 static dem_status make_stripes(segments *s, const trajectory_rows *r)
 {
     hsize_t *at = &s->spans[ROWS_FRAMES].at;
