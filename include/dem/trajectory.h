@@ -65,7 +65,8 @@ typedef struct dem_trajectory_options {
                           where nothing else opens it then; takes half the time of a small frame; default false */
     int writers; /**< more than 1: arrays of frames are in so many files beside each file, which other ranks write of a
                       run that rank 0 leads (dem_batch --writers), of which there are as many at least; the simulation
-                      then outlives the trajectory. Default 0, as 1: they are in the file itself */
+                      then outlives the trajectory. What has the name of one and was not begun by a run of this
+                      lattice stays, and is DEM_ERROR_IO at the start. Default 0, as 1: they are in the file itself */
 } dem_trajectory_options;
 
 static inline dem_trajectory_options dem_trajectory_options_default(void)

@@ -1050,7 +1050,8 @@ class dem_trajectory_options(SizedStructure):
         nothing else opens it then; takes half the time of a small frame; default false
     writers: more than 1: arrays of frames are in so many files beside each file, which other ranks write of a run that
         rank 0 leads (dem_batch --writers), of which there are as many at least; the simulation then outlives the
-        trajectory. Default 0, as 1: they are in the file itself"""
+        trajectory. What has the name of one and was not begun by a run of this lattice stays, and is DEM_ERROR_IO at
+        the start. Default 0, as 1: they are in the file itself"""
     _fields_ = [("struct_size", c_size_t), ("frame_interval", c_double), ("double_precision", c_bool),
                 ("deflate", c_int), ("events", c_bool), ("fields", c_uint32), ("peaks", POINTER(dem_peaks)),
                 ("most_stressed", c_int64), ("n_probes", c_int64), ("probes", POINTER(dem_probe)), ("breaks", c_bool),

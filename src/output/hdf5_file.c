@@ -50,7 +50,7 @@ enum { SMALL = 0x10000 }; /* bytes by which a file in memory grows */
 static hid_t make_access(bool in_memory)
 {
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    if (in_memory && H5Pset_fapl_core(access, SMALL, true) < 0) return H5I_INVALID_HID;
+    if (in_memory && H5Pset_fapl_core(access, SMALL, false) < 0) return H5I_INVALID_HID;
     if (access >= 0 && H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 && H5Pset_file_locking(access, 0, 1) >= 0)
         return access;
     return H5I_INVALID_HID;
@@ -188,7 +188,7 @@ static void restore(const hdf5_file *file)
 /* On failure everything is as before; on success the lock is held until hdf5_close(). */
 static dem_status open_with(hdf5_file *out, const char *path, unsigned access, bool in_memory)
 {
-    hdf5_file file = {.id = H5I_INVALID_HID, .path = path};
+    hdf5_file file = {.id = H5I_INVALID_HID, .path = path, .in_memory = in_memory};
     dem_status status = DEM_OK;
     if (access != H5F_ACC_RDONLY) {
         file.deflater = calloc(1, sizeof *file.deflater);
@@ -322,12 +322,39 @@ dem_status hdf5_close_paused(hdf5_file *file)
     return hdf5_close(file, DEM_OK);
 }
 
+/* By one call, so that a kill leaves no file, an empty one, or all of it. */
+static dem_status write_bytes(const char *path, const void *bytes, size_t n)
+{
+    const int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    CHECK(descriptor >= 0, DEM_ERROR_IO, "%s: cannot be created (%s)", path, strerror(errno));
+    errno = ENOSPC; /* of a write that is cut short */
+    const bool all = write(descriptor, bytes, n) == (ssize_t)n;
+    const int cause = errno;
+    (void)close(descriptor);
+    if (!all) (void)unlink(path);
+    CHECK(all, DEM_ERROR_IO, "%s: cannot be written (%s)", path, strerror(cause));
+    return DEM_OK;
+}
+
+static dem_status write_from_memory(const hdf5_file *file)
+{
+    const ssize_t n = H5Fget_file_image(file->id, NULL, 0);
+    void *bytes = malloc(n > 0 ? (size_t)n : 1);
+    CHECK_MEMORY(bytes);
+    dem_status status = DEM_OK;
+    if (n <= 0 || H5Fget_file_image(file->id, bytes, (size_t)n) != n) status = hdf5_fail(file, "", "cannot be written");
+    if (status == DEM_OK) status = write_bytes(file->path, bytes, (size_t)n);
+    free(bytes);
+    return status;
+}
+
 /* The flush comes first, so that a failed write is found while the file is open. The lock is given back in any case. */
 dem_status hdf5_close(hdf5_file *file, dem_status status)
 {
     if (kept_datasets_close(file->kept) < 0 && status == DEM_OK) status = hdf5_fail(file, "", "cannot be written");
     file->kept = NULL;
     if (H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0 && status == DEM_OK) status = hdf5_fail(file, "", "cannot be flushed");
+    if (file->in_memory && status == DEM_OK) status = write_from_memory(file);
     if (H5Fclose(file->id) < 0 && status == DEM_OK) status = hdf5_fail(file, "", "cannot be closed");
     restore(file);
     if (file->deflater != NULL) deflater_free(file->deflater);

@@ -25,6 +25,7 @@ typedef struct hdf5_file {
     deflater *deflater;       /**< of a file that is written to */
     deflater_helpers helpers; /**< none at first */
     kept_datasets *kept;
+    bool in_memory;     /**< until it is closed */
     bool takes_stripes; /**< of one that may come from anywhere: its rows may stand in files beside it */
 } hdf5_file;
 
@@ -39,8 +40,8 @@ dem_status hdf5_open_write(hdf5_file *out, const char *path, hsize_t bytes);
 /** The same with a new, empty file in place of an older one. */
 dem_status hdf5_open_new(hdf5_file *out, const char *path, hsize_t bytes);
 
-/** A new file of a few kilobytes in place of an older one: it is in memory until it is closed, and then written at
- *  once. Until that it is empty. */
+/** A new file of a few kilobytes, in memory: closing writes it at once, in place of an older one, so that a kill leaves
+ *  an empty file or all of it. */
 dem_status hdf5_open_small(hdf5_file *out, const char *path);
 
 /** Keeps the datasets that rows are appended to, or read from, from now on open until the file is closed. */

@@ -523,6 +523,38 @@ TEST_WITH(without_room_a_file_stays_as_it_was, NULL, scratch_sweep)
     expect_text(&file, "/t", "x");
 }
 
+TEST_WITH(a_small_file_is_there_when_it_is_closed, NULL, scratch_sweep)
+{
+    hdf5_file file;
+    assert_ok(hdf5_open_small(&file, path));
+    assert_ok(hdf5_write_text(&file, "/t", "x"));
+    assert_int_equal(access(path, F_OK), -1);
+    assert_ok(hdf5_close(&file, DEM_OK));
+    assert_ok(hdf5_open_write(&file, path, 0));
+    expect_text(&file, "/t", "x");
+    assert_ok(hdf5_write_text(&file, "/u", "y"));
+    finish(&file);
+}
+
+TEST_WITH(a_small_file_without_room_is_none, NULL, scratch_sweep)
+{
+    struct rlimit kept, small;
+    hdf5_file file;
+    assert_ok(hdf5_open_small(&file, path));
+    assert_ok(hdf5_write_text(&file, "/t", "x"));
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &kept), 0);
+    small = kept;
+    small.rlim_cur = 100;
+    void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const dem_status status = hdf5_close(&file, DEM_OK);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &kept), 0);
+    (void)signal(SIGXFSZ, handler);
+    assert_int_equal(status, DEM_ERROR_IO);
+    assert_message(": cannot be written (No space left on device)");
+    assert_int_equal(access(path, F_OK), -1);
+}
+
 TEST_WITH(closing_passes_a_failure_on, NULL, scratch_sweep)
 {
     CLEANUP(finish) hdf5_file file = open_new();
