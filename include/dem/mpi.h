@@ -45,7 +45,8 @@
  *  Ranks cannot share yet, and refuse: what a program breaks, and a motion that it sets; trajectories, overlaps of
  *  bodies, their fragments, elastic constants and the energy of cracks, which are of the whole lattice at once, that no
  *  rank keeps.
- *  `mpirun dem_batch` has all but what a program breaks: there rank 0 has the whole besides its part.
+ *  `mpirun dem_batch` has all but what a program breaks: there rank 0 has the whole besides its part, but of a single
+ *  large body that ranks make in slabs.
  *
  *  MPI is initialised and finalised by the program: models are created after the one and destroyed before the other.
  *  All calls come from one thread, that of MPI_Init() or MPI_Init_thread() unless MPI has MPI_THREAD_SERIALIZED. A
