@@ -33,7 +33,8 @@
  *  All ranks have all contacts, whose nodes have their numbers in the whole lattice: events, counts of them, contacts,
  *  loads of obstacles, dem_simulation_surfaces() and dem_simulation_pair() are the same on each, and a rank may ask for
  *  these, for contact forces and pressures of its part, and watch events, by itself. So it is with breaks, whose
- *  elements have their numbers in the whole lattice, and with what is broken in its part.
+ *  elements have their numbers in the whole lattice, with what is broken in its part, and with what the last look has
+ *  found, dem_simulation_overlap().
  *
  *  Functions of the program, external forces and motions of obstacles, are called on each rank, by that rank alone, and
  *  answer alike on all: dem_force and dem_motion say what they are asked. A failure of one is that of all ranks. Where
@@ -42,9 +43,8 @@
  *  Of a body alone without obstacles, which may not break, dem_model_create_mpi() shares no surfaces: that it touches
  *  itself is refused (DEM_ERROR_ARGUMENT by dem_simulation_create()), unless dem_model_create_mpi_for() knows of it.
  *
- *  Ranks cannot share yet, and refuse: what a program breaks, and a motion that it sets; trajectories, overlaps of
- *  bodies, their fragments, elastic constants and the energy of cracks, which are of the whole lattice at once, that no
- *  rank keeps.
+ *  Ranks cannot share yet, and refuse: what a program breaks, and a motion that it sets; trajectories, fragments of
+ *  bodies, elastic constants and the energy of cracks, which are of the whole lattice at once, that no rank keeps.
  *  `mpirun dem_batch` has all but what a program breaks: there rank 0 has the whole besides its part, but of a single
  *  large body that ranks make in slabs.
  *

@@ -17,7 +17,7 @@ static bool is_known(const boundary_nodes *b, dem_index node)
 /* Likewise after a failure; some arrays may have more room then. */
 static dem_status reserve(boundary_nodes *b, dem_index n_here)
 {
-    const dem_index needed = b->told.n + n_here;
+    const dem_index needed = b->sent.n + n_here;
     dem_index rooms[] = {b->room, b->room, b->room};
     CHECK(grow_array((void **)&b->number, &rooms[0], needed, sizeof *b->number) &&
               grow_array((void **)&b->x, &rooms[1], needed, 2 * sizeof *b->x) &&
@@ -30,8 +30,8 @@ static dem_status reserve(boundary_nodes *b, dem_index n_here)
 /* The first n of `here` are those that are known. */
 static void take(boundary_nodes *b, dem_index n)
 {
-    b->n = b->told.n + n;
-    for (dem_index k = 0; k < n; k++) b->number[b->told.n + k] = domain_number(b->domain, b->here[k]);
+    b->n = b->sent.n + n;
+    for (dem_index k = 0; k < n; k++) b->number[b->sent.n + k] = domain_number(b->domain, b->here[k]);
 }
 
 /* ---- where nothing is broken ---- */
@@ -60,7 +60,7 @@ static dem_status list_own(boundary_nodes *b, dem_index *n)
 
 static dem_index count_own(const boundary_nodes *b)
 {
-    return b->told.first[b->ranks->rank + 1] - all_rows_own(&b->told);
+    return b->sent.first[b->ranks->rank + 1] - all_rows_own(&b->sent);
 }
 
 static dem_status create_part(boundary_nodes *b)
@@ -68,10 +68,10 @@ static dem_status create_part(boundary_nodes *b)
     const domain *d = b->domain;
     dem_index n_own, n_here = 0;
     TRY(reduce_status(b->ranks, list_own(b, &n_own), 0.0));
-    TRY(all_rows_create(&b->told, b->ranks, n_own));
+    TRY(all_rows_create(&b->sent, b->ranks, n_own));
     TRY(reduce_status(b->ranks, reserve(b, d->n_boundary), 0.0));
-    for (dem_index k = 0; k < n_own; k++) b->number[all_rows_own(&b->told) + k] = d->number[b->own[k]];
-    all_rows_share(&b->told, sizeof *b->number, b->number);
+    for (dem_index k = 0; k < n_own; k++) b->number[all_rows_own(&b->sent) + k] = d->number[b->own[k]];
+    all_rows_share(&b->sent, sizeof *b->number, b->number);
     for (dem_index k = 0; k < d->n_boundary; k++)
         if (is_known(b, d->boundary[k])) b->here[n_here++] = d->boundary[k];
     take(b, n_here);
@@ -86,7 +86,7 @@ dem_status boundary_nodes_create(boundary_nodes *out, const dem_lattice *lattice
 
 void boundary_nodes_free(boundary_nodes *b)
 {
-    all_rows_free(&b->told);
+    all_rows_free(&b->sent);
     free(b->number);
     free(b->x);
     free(b->own);
@@ -120,9 +120,9 @@ static void copy(double *to, const double *x, const dem_index *nodes, dem_index 
 
 void boundary_nodes_locate(boundary_nodes *b, const double *x)
 {
-    const all_rows *told = &b->told;
-    copy(b->x + 2 * told->n, x, b->here, b->n - told->n);
+    const all_rows *sent = &b->sent;
+    copy(b->x + 2 * sent->n, x, b->here, b->n - sent->n);
     if (b->domain == NULL) return;
-    copy(b->x + 2 * all_rows_own(told), x, b->own, count_own(b));
-    all_rows_share(told, 2 * sizeof *b->x, b->x);
+    copy(b->x + 2 * all_rows_own(sent), x, b->own, count_own(b));
+    all_rows_share(sent, 2 * sizeof *b->x, b->x);
 }

@@ -15,9 +15,9 @@ typedef struct boundary_nodes {
     dem_index n;
     dem_index *number; /* [n] in the whole, each once */
     double *x;         /* [n][2] m */
-    all_rows told;     /* of them come first those that ranks tell each other; none where the whole is here */
+    all_rows sent;     /* of them come first those that ranks tell each other; none where the whole is here */
     dem_index *own;    /* [those of this rank] which nodes here they are */
-    dem_index *here;   /* [n - told.n] and then, ascending, those that are known here */
+    dem_index *here;   /* [n - sent.n] and then, ascending, those that are known here */
     dem_index room;    /* for so many of all there is memory */
 } boundary_nodes;
 

@@ -74,8 +74,8 @@ static dem_status lead_frame(void *context, const dem_simulation *part)
     return release(l, observers_frame(&l->whole->observers, f->observer, l->whole));
 }
 
-/* The whole's is that of the part, which has gathered all nodes. The part has no use for it: it goes on from that of the
- * whole. */
+/* The whole's is that of the part, which has gathered all nodes. The part has no use for it: it goes on from that of
+ * the whole. */
 static dem_status take_checkpoint(dem_simulation *whole, dem_checkpoint *from)
 {
     whole->has_checkpoint = false;

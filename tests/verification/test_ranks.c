@@ -120,9 +120,9 @@ static bool is_once_a_step(const scene *s, int n_rings)
            s->run.options.n_boundaries == 0 && dem_model_lattice(s->run.model)->viscosity == NULL;
 }
 
-/* One exchange for each evaluation, or for each attempt and the first state; a team of one steps as a process alone
- * does, without any. To these come those of looks for overlaps. That at the end of a step of Fehlberg's is made even if the step is rejected; the first fixed step
- * of ARKODE's asks the guard for its length before there is one. */
+/* One exchange for each evaluation, or for each attempt and the first state, and those of looks for overlaps; a team of
+ * one steps as a process alone does, without any. That at the end of a step of Fehlberg's is made even if the step is
+ * rejected; the first fixed step of ARKODE's asks the guard for its length before there is one. */
 static dem_index exchanges_of(const dem_options *options, bool once_a_step, int n_ranks, const dem_counts *counts)
 {
     const dem_index ahead = options->method == DEM_METHOD_FEHLBERG45 ? counts->rejected : 0;
