@@ -28,7 +28,7 @@ typedef struct slab_runs {
 /** Makes n slabs. */
 slab_runs slab_runs_make(const slab_runs_scene *scene, int n);
 
-/** Runs them, but for rows of what is seen where outcomes have no room.  */
+/** Runs them. Outcomes are of rank_runs_make_outcomes(), unless no model comes of the slabs. */
 void slab_runs_go(slab_runs *runs, int n);
 
 /** n ranks have the models of ranks that cut them from the whole, and see what a process alone has seen. */
