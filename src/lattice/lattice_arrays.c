@@ -61,13 +61,21 @@ dem_index lattice_count(const dem_lattice *lattice, lattice_items of)
     return of == LATTICE_SPRINGS ? lattice->n_springs : lattice->n_triangles;
 }
 
-uint64_t lattice_arrays_hash(const dem_lattice *l)
+uint64_t lattice_arrays_hash_counts(const dem_lattice *l)
 {
     const uint64_t n = (uint64_t)l->n_nodes, s = (uint64_t)l->n_springs, t = (uint64_t)l->n_triangles;
-    uint64_t hash = random_mix(n) ^ random_mix(s + 1) ^ random_mix(t + 2);
-    for (int k = 0; k < LATTICE_ARRAYS; k++) {
-        const lattice_array *a = &lattice_arrays[k];
-        hash = random_hash(hash, lattice_array_of(l, a), (size_t)lattice_count(l, a->of) * a->size);
-    }
+    return random_mix(n) ^ random_mix(s + 1) ^ random_mix(t + 2);
+}
+
+uint64_t lattice_arrays_hash_next(uint64_t hash, const dem_lattice *l, int k, const void *items)
+{
+    return random_hash(hash, items, (size_t)lattice_count(l, lattice_arrays[k].of) * lattice_arrays[k].size);
+}
+
+uint64_t lattice_arrays_hash(const dem_lattice *l)
+{
+    uint64_t hash = lattice_arrays_hash_counts(l);
+    for (int k = 0; k < LATTICE_ARRAYS; k++)
+        hash = lattice_arrays_hash_next(hash, l, k, lattice_array_of(l, &lattice_arrays[k]));
     return hash;
 }

@@ -33,4 +33,9 @@ dem_index lattice_count(const dem_lattice *lattice, lattice_items of);
 /** A number that hardly any two lattices have which differ in some array. */
 uint64_t lattice_arrays_hash(const dem_lattice *lattice);
 
+/** The same where arrays are not all here at once: first the counts, then each array in the order of lattice_arrays.
+ *  \param items  of array k; NULL: there is none */
+uint64_t lattice_arrays_hash_counts(const dem_lattice *lattice);
+uint64_t lattice_arrays_hash_next(uint64_t hash, const dem_lattice *lattice, int k, const void *items);
+
 #endif

@@ -46,9 +46,26 @@ static numbered_file name_at_first(const stripes *s, dem_index number, int k)
     return (numbered_file){.segment = number, .stripe = k + 1, .n = s->n, .is_temporary = number == 0};
 }
 
-int64_t stripes_run(const dem_model *model)
+dem_status stripes_run(int64_t *out, const lattice_source *lattice)
 {
-    return (int64_t)lattice_arrays_hash(dem_model_lattice(model));
+    uint64_t hash = lattice_arrays_hash_counts(lattice->lattice);
+    for (int k = 0; k < LATTICE_ARRAYS; k++) {
+        source_array a;
+        const dem_status status = dem_private_lattice_open(&a, lattice, lattice_arrays[k].offset);
+        hash = lattice_arrays_hash_next(hash, lattice->lattice, k, a.items);
+        dem_private_lattice_close(&a);
+        TRY(status);
+    }
+    *out = (int64_t)hash;
+    return DEM_OK;
+}
+
+/* Whether a file is a stripe of this run, of which there is a hash where it writes stripes itself. */
+static bool is_own(const stripes *s, const char *path)
+{
+    int64_t run = s->run;
+    if (s->n == 0 && stripes_run(&run, &s->lattice) != DEM_OK) return false;
+    return stripe_file_is_of(path, run);
 }
 
 /* ---- orders ---- */
@@ -67,7 +84,6 @@ static dem_status prepare(orders *o, const stripes *s, const frames *f, dem_inde
     for (int k = 0; k < s->n; k++) {
         stripe_order *what = &o->contents[k];
         what->kind = kind;
-        what->stays_open = s->stay_open;
         what->stays_open = s->stay_open;
         what->whole = *f;
         what->whole.scratch = what->whole.stress = what->whole.pressure = NULL;
@@ -285,9 +301,7 @@ static void remove_others(const stripes *s, keeps *stays, dem_index above)
     while (files != NULL && (entry = readdir(files)) != NULL) {
         if (strncmp(entry->d_name, name, length) != 0 || !read_name(&e, entry->d_name + length)) continue;
         const int n = snprintf(path, sizeof path, "%.*s%s", of_folder, s->path, entry->d_name);
-        if (n > 0 && n < HDF5_PATH && !stays(s, &e, above) &&
-            stripe_file_is_of(path, s->n > 0 ? s->run : stripes_run(s->model)))
-            (void)unlink(path);
+        if (n > 0 && n < HDF5_PATH && !stays(s, &e, above) && is_own(s, path)) (void)unlink(path);
     }
     if (files != NULL) (void)closedir(files);
 }

@@ -5,6 +5,7 @@
 #ifndef DEM_OUTPUT_STRIPES_H
 #define DEM_OUTPUT_STRIPES_H
 
+#include "lattice/lattice_source.h"
 #include "output/frame_stripes.h"
 
 /** All functions but stripes_prune() do nothing where n is 0. */
@@ -13,12 +14,12 @@ typedef struct stripes {
     const dem_simulation *simulation; /**< whose ranks write */
     const char *path;                 /**< NAME.vtkhdf */
     bool stay_open;                   /**< between frames (dem_trajectory_options.stays_open) */
-    const dem_model *model;           /**< of the run */
+    lattice_source lattice;           /**< of the run */
     int64_t run;                      /**< of stripes_run(), where n is not 0 */
 } stripes;
 
-/** A number by which files are known to be of this run: of its lattice. */
-int64_t stripes_run(const dem_model *model);
+/** A number by which files are known to be of this run: of its lattice.  \return DEM_ERROR_MEMORY */
+dem_status stripes_run(int64_t *out, const lattice_source *lattice);
 
 /** Makes the files of a number, without frames. Those of number 0 have temporary names.
  *  \return DEM_ERROR_IO, also if a file of such a name, or one of the whole's names, was not begun by this run */

@@ -70,8 +70,8 @@ dem_status trajectory_rows_init(trajectory_rows *out, const dem_simulation *simu
     create_team(out, simulation);
     TRY(frames_init(&out->frames, out->model, options));
     if (!has_frames(out)) out->frames.n_stripes = 0;
-    out->stripes = (stripes){out->frames.n_stripes, simulation, NULL, options->stays_open, out->model, 0};
-    if (out->stripes.n > 0) out->stripes.run = stripes_run(out->model);
+    out->stripes = (stripes){out->frames.n_stripes, simulation, NULL, options->stays_open, out->lattice, 0};
+    if (out->stripes.n > 0) TRY(stripes_run(&out->stripes.run, &out->lattice));
     if (has_frames(out) && options->fragments) TRY(fragment_table_init(&out->fragments, out->model));
     TRY(make_probes(out));
     out->options.probes = NULL; /* the caller's */

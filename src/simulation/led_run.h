@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run that ranks make for a simulation of the whole, which rank 0 alone has, or nobody has: the *leader*. Whoever uses that sees no
- * ranks: observers are called, and asked and answered, on rank 0, while the *followers*, the other ranks, take part in
- * what the leader asks for. Rank 0 has the memory of the whole, besides its part, or, where each rank makes a slab, of
- * what is shown and written. */
+/* A run that ranks make for a simulation of the whole, which rank 0 alone has, or nobody has: the *leader*. Whoever
+ * uses that sees no ranks: observers are called, and asked and answered, on rank 0, while the *followers*, the other
+ * ranks, take part in what the leader asks for. Rank 0 has the memory of the whole, besides its part, or, where each
+ * rank makes a slab, of what is shown and written. */
 #ifndef DEM_SIMULATION_LED_RUN_H
 #define DEM_SIMULATION_LED_RUN_H
 
