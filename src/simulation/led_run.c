@@ -11,6 +11,7 @@
 #include "base/status.h"
 #include "model/shared_model.h"
 #include "simulation/leader_observers.h"
+#include "simulation/leader_peaks.h"
 #include "simulation/rank_shares.h"
 #include "simulation/shared_orders.h"
 #include "simulation/shared_problem.h"
@@ -365,83 +366,12 @@ dem_status rank_order_give(const dem_simulation *simulation, const rank_order *o
     return status;
 }
 
-/* ---- peaks ---- */
-
-static dem_status pass_peaks(led_run *l, rank_call_kind what, int number)
-{
-    const rank_call o = rank_call_send(&l->ranks, (rank_call){.kind = what, .number = number});
-    led_ranks_enter(l);
-    const dem_status status = shared_peaks_answer(&l->peaks, l->part, &o);
-    led_ranks_leave(l);
-    return status;
-}
-
-/* Those of the program get a number when they are first looked for. */
-static dem_status send_peaks(led_run *l, dem_peaks *peaks)
-{
-    int k = shared_peaks_number(&l->peaks, peaks);
-    const bool is_known = k >= 0 && l->peaks.part[k] != NULL;
-    if (k < 0) k = shared_peaks_number(&l->peaks, NULL);
-    CHECK(k >= 0, DEM_ERROR_ARGUMENT, "a run has more than %d peaks", OBSERVERS_MOST);
-    l->peaks.whole[k] = peaks;
-    peaks->away = l->whole;
-    if (!is_known) TRY(pass_peaks(l, RANK_CALL_PEAKS_TAKE, k));
-    peaks_give_up(peaks);
-    peaks->are_away = true;
-    return DEM_OK;
-}
-
-dem_status led_run_look_for_peaks(const dem_simulation *whole, dem_peaks *peaks)
-{
-    led_run *l = whole->leads;
-    TRY(send_peaks(l, peaks));
-    return pass_peaks(l, RANK_CALL_PEAKS_LOOK, shared_peaks_number(&l->peaks, peaks));
-}
-
-dem_status led_run_bring_node_peaks(const dem_simulation *whole, dem_peaks *peaks)
-{
-    led_run *l = whole->leads;
-    return pass_peaks(l, RANK_CALL_PEAKS_NODES, shared_peaks_number(&l->peaks, peaks));
-}
-
-dem_status led_run_bring_spring_peaks(const dem_simulation *whole, dem_peaks *peaks)
-{
-    led_run *l = whole->leads;
-    return pass_peaks(l, RANK_CALL_PEAKS_SPRINGS, shared_peaks_number(&l->peaks, peaks));
-}
-
-void led_run_forget_peaks(const dem_simulation *whole, const dem_peaks *peaks)
-{
-    shared_peaks *s = &whole->leads->peaks;
-    s->whole[shared_peaks_number(s, peaks)] = NULL;
-}
-
-/* Those of nodes and of springs. */
-static dem_status bring_peaks(led_run *l, int k)
-{
-    dem_peaks *whole = l->peaks.whole[k];
-    if (whole == NULL || !whole->are_away) return DEM_OK;
-    peaks_give_up(whole);
-    dem_status status = pass_peaks(l, RANK_CALL_PEAKS_NODES, k);
-    if (status == DEM_OK) status = pass_peaks(l, RANK_CALL_PEAKS_SPRINGS, k);
-    if (status == DEM_OK)
-        whole->are_away = false;
-    else
-        peaks_give_up(whole);
-    return status;
-}
-
-/* Before the parts end. */
-static dem_status bring_all_peaks(led_run *l)
-{
-    for (int k = 0; k < OBSERVERS_MOST; k++) TRY(bring_peaks(l, k));
-    return DEM_OK;
-}
+/* ---- beginning, and going on ---- */
 
 static dem_status begin_parts(led_run *l, dem_checkpoint *entries, const dem_checkpoint *checkpoint)
 {
     if (l->part != NULL) {
-        TRY(bring_all_peaks(l));
+        TRY(leader_peaks_bring_all(l));
         (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_DROP});
         drop(l);
     }
@@ -545,7 +475,7 @@ static dem_status lead(led_run *l, const dem_checkpoint *checkpoint)
 void led_run_destroy(led_run *l)
 {
     if (l == NULL) return;
-    (void)bring_all_peaks(l);
+    (void)leader_peaks_bring_all(l);
     for (int k = 0; k < OBSERVERS_MOST; k++)
         if (l->peaks.whole[k] != NULL) l->peaks.whole[k]->away = NULL;
     (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_DROP});

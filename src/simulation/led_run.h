@@ -58,15 +58,6 @@ dem_status led_run_spread(const dem_simulation *whole, led_run_getter *get, int 
 /** Puts the state that is seen into `frame`. */
 void led_run_gather(dem_simulation *whole);
 
-/** All parts look for larger peaks; from then on they have them, and the program's are given up. */
-dem_status led_run_look_for_peaks(const dem_simulation *whole, dem_peaks *peaks);
-
-/** Brings copies of the peaks that the parts have, to where there is room for them, or room is made; and tells them
- *  that nobody wants theirs. */
-dem_status led_run_bring_node_peaks(const dem_simulation *whole, dem_peaks *peaks);
-dem_status led_run_bring_spring_peaks(const dem_simulation *whole, dem_peaks *peaks);
-void led_run_forget_peaks(const dem_simulation *whole, const dem_peaks *peaks);
-
 /** Ends what the simulation leads. */
 void led_run_destroy(led_run *l);
 

@@ -10,7 +10,7 @@
 #include "base/checkpoint_entries.h"
 #include "base/status.h"
 #include "base/struct_size.h"
-#include "simulation/led_run.h"
+#include "simulation/leader_peaks.h"
 
 typedef dem_status bring(const dem_simulation *whole, dem_peaks *peaks);
 
@@ -27,12 +27,12 @@ static const dem_peaks *brought(const dem_peaks *peaks, bool is_there, bring *of
 
 static const dem_peaks *with_nodes(const dem_peaks *peaks)
 {
-    return brought(peaks, peaks->nodes != NULL, led_run_bring_node_peaks);
+    return brought(peaks, peaks->nodes != NULL, leader_peaks_bring_nodes);
 }
 
 static const dem_peaks *with_springs(const dem_peaks *peaks)
 {
-    return brought(peaks, peaks->springs != NULL, led_run_bring_spring_peaks);
+    return brought(peaks, peaks->springs != NULL, leader_peaks_bring_springs);
 }
 
 /* Those whose number is a multiple of `every` are looked at. */
@@ -48,8 +48,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
 {
     dem_peaks *p = context;
     if (steps_since_look(p, simulation) > 0) return DEM_OK;
-    const dem_status status =
-        simulation->leads != NULL ? led_run_look_for_peaks(simulation, p) : peaks_look(p, simulation);
+    const dem_status status = simulation->leads != NULL ? leader_peaks_look(simulation, p) : peaks_look(p, simulation);
     p->is_new = false;
     return status;
 }
@@ -86,8 +85,8 @@ static dem_status bring_into(dem_peaks *p, dem_checkpoint *checkpoint)
     peaks_give_up(p);
     p->nodes = of_nodes;
     p->springs = of_springs;
-    dem_status status = led_run_bring_node_peaks(p->away, p);
-    if (status == DEM_OK) status = led_run_bring_spring_peaks(p->away, p);
+    dem_status status = leader_peaks_bring_nodes(p->away, p);
+    if (status == DEM_OK) status = leader_peaks_bring_springs(p->away, p);
     p->nodes = NULL;
     p->springs = NULL;
     return status;
@@ -173,7 +172,7 @@ dem_status dem_peaks_resume(dem_peaks **out, const dem_model *model, dem_index e
 void dem_peaks_destroy(dem_peaks *peaks)
 {
     if (peaks == NULL) return;
-    if (peaks->away != NULL) led_run_forget_peaks(peaks->away, peaks);
+    if (peaks->away != NULL) leader_peaks_forget(peaks->away, peaks);
     peaks_give_up(peaks);
     free(peaks->stress);
     free(peaks->strain);

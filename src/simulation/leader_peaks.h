@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Peaks of a run that rank 0 leads: the parts look for them, and the program has copies when it asks. */
+#ifndef DEM_SIMULATION_LEADER_PEAKS_H
+#define DEM_SIMULATION_LEADER_PEAKS_H
+
+#include "simulation/led_ranks.h"
+
+/** All parts look for larger peaks; from then on they have them, and the program's are given up. */
+dem_status leader_peaks_look(const dem_simulation *whole, dem_peaks *peaks);
+
+/** Brings copies of the peaks that the parts have, to where there is room for them, or room is made; and tells them
+ *  that nobody wants theirs. */
+dem_status leader_peaks_bring_nodes(const dem_simulation *whole, dem_peaks *peaks);
+dem_status leader_peaks_bring_springs(const dem_simulation *whole, dem_peaks *peaks);
+void leader_peaks_forget(const dem_simulation *whole, const dem_peaks *peaks);
+
+/** Brings all that are away, before the parts end. */
+dem_status leader_peaks_bring_all(led_run *l);
+
+#endif
