@@ -88,9 +88,11 @@ static bool begins_with_mark(const char *path, int64_t run)
     FILE *file = fopen(path, "rb");
     if (file == NULL) return false;
     const size_t n = fread(head, 1, HEAD, file);
+    const bool is_read = ferror(file) == 0;
     (void)fclose(file);
     for (size_t k = 0; k < sizeof little; k++) little[k] = (unsigned char)((uint64_t)run >> 8 * k);
-    return n == 0 || (contains(head, n, mark, sizeof mark - 1) && contains(head, n, little, sizeof little));
+    const bool is_marked = contains(head, n, mark, sizeof mark - 1) && contains(head, n, little, sizeof little);
+    return is_read && (n == 0 || is_marked);
 }
 
 bool stripe_file_is_of(const char *path, int64_t run)
