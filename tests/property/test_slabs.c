@@ -387,7 +387,7 @@ static void write_file(const dem_lattice *l, int deflate)
 {
     hdf5_file file;
     assert_ok(hdf5_open_new(&file, path, 4096));
-    assert_ok(hdf5_close(&file, lattice_file_write(&file, l, deflate)));
+    assert_ok(hdf5_close(&file, lattice_file_write(&file, &(lattice_source){l, NULL}, deflate)));
 }
 
 /* Also nodes of the rim have all that is in the file. */

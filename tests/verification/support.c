@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* See support.h. */
-#include "forces/kernel_functions.h"
 #include "harness/motion.h"
 #include "support.h"
 
@@ -173,10 +172,4 @@ void support_point(support_run *run, double m, const double x[2], const double v
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &m, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     support_open(run, &lattice, &obstacle, 1, &options);
-}
-
-dem_kernel support_kernel_of_rows(void)
-{
-    const dem_kernel fastest = kernel_functions_fastest();
-    return kernel_functions_of(fastest)->lattice_step != NULL ? fastest : DEM_KERNEL_PORTABLE;
 }

@@ -69,7 +69,4 @@ motion support_at(support_run *run, double t);
 void support_point(support_run *run, double m, const double x[2], const double v[2], const double *points,
                    dem_index n_points, double restitution);
 
-/** The fastest kernel that steps by lattice rows. Not all do: that of AVX-512 by multiplications takes blocks. */
-dem_kernel support_kernel_of_rows(void);
-
 #endif

@@ -13,6 +13,7 @@
 #include "support.h"
 
 #include "domain/partition.h"
+#include "harness/kernel_of_rows.h"
 #include "simulation/private.h"
 
 enum { MOST_RANKS = 3, MANY_RANKS = 7, STEP_RINGS = 3, TEXT = 256 };
@@ -331,12 +332,12 @@ static void check_verlet(const scene *s, int n_ranks, int n_rings, const outcome
 
 /* All but the last step, in which the end of the run is: as many at once as there are rings, up to the looks after
  * every 16th step; and an exchange for the first state. */
-static void check_steps_at_once(double width, double height, double poissons_ratio, dem_kernel kernel)
+static void check_steps_at_once(double width, double height, double poissons_ratio, dem_kernel kind)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = make_plate_of(width, height, poissons_ratio);
     rank_runs_set_off(&l, 2.0, 20.0);
     scene s = verlet_of(&l, NULL, 0, 80.5);
-    s.options.kernel = kernel;
+    s.options.kernel = kind;
     outcome whole = run_alone(&s);
     assert_string_equal(whole.failure, "");
     assert_int_equal(whole.counts.steps, 81);
@@ -356,7 +357,7 @@ static void check_steps_at_once(double width, double height, double poissons_rat
 TEST(ranks_take_steps_at_once)
 {
     check_steps_at_once(0.46, 0.4, 0.3, DEM_KERNEL_AUTO);
-    check_steps_at_once(0.3, 0.28, 1.0 / 3.0, support_kernel_of_rows());
+    check_steps_at_once(0.3, 0.28, 1.0 / 3.0, kernel_of_rows());
 }
 
 /* Some 40 steps above a floor, and then on it, and past a checkpoint. */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "forces/step_wave.h"
+#include "harness/kernel_of_rows.h"
 
 /* What the calls of the wave have come to. */
 static struct tally {
@@ -170,7 +171,7 @@ typedef struct outcome {
 static dem_options options_of(const plan *p)
 {
     dem_options options = dem_options_default();
-    if (poissons_ratio < 0.4) options.kernel = support_kernel_of_rows();
+    if (poissons_ratio < 0.4) options.kernel = kernel_of_rows();
     options.method = DEM_METHOD_VERLET;
     options.threads = p->threads;
     options.thread_nodes = 1;
