@@ -34,8 +34,8 @@ void deck_slabs_forget(deck_slabs_found *f);
  * \param echo  the resolved deck */
 void *deck_slabs_recipe(size_t *size, const deck_slabs *slabs, const char *echo);
 
-/* Makes a slab by a recipe, as dem_private_slab_maker (base/slab_recipe.h). */
-dem_status deck_slabs_make(void *program, const void *recipe, size_t size, dem_index part, dem_index n_parts,
+/* Makes a slab by the bytes of a recipe, as dem_private_slab_maker (base/slab_recipe.h). */
+dem_status deck_slabs_make(void *program, const void *bytes, size_t size, dem_index part, dem_index n_parts,
                            dem_slab *out);
 
 #endif

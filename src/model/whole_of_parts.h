@@ -15,8 +15,8 @@
 dem_status whole_of_parts_create(dem_model **out, dem_model *part, model_array_asker *ask);
 
 /** Gathers array number `array` of lattice_arrays from the parts. Collective.
- *  \param[out] items  of the whole, on rank 0; not looked at elsewhere
+ *  \param[out] whole  all items, on rank 0; not looked at elsewhere
  *  \return DEM_ERROR_MEMORY, on all ranks */
-dem_status whole_of_parts_gather(const dem_model *part, int array, void *items);
+dem_status whole_of_parts_gather(const dem_model *part, int array, void *whole);
 
 #endif
