@@ -24,6 +24,7 @@
 #include "relaxation.h"
 #include "report.h"
 #include "result.h"
+#include "slab_plan.h"
 #include "step_report.h"
 #include "wall_clock.h"
 
@@ -46,7 +47,6 @@ typedef struct job {
     lock lock;
     time_t start;
     double wall_start; /* s */
-    double nodes;      /* about, before anything is built */
     bool claimed;      /* the output is ours */
     bool reported;     /* the result */
     outcome outcome;
@@ -409,7 +409,8 @@ static bool fits(job *j)
         outcome_fail(&j->outcome, EXIT_MEMORY, j->file, "out of memory");
         return false;
     }
-    j->nodes = needed.nodes;
+    slab_plan_decide(&j->deck, c, needed.nodes);
+    slab_plan_share_memory(&needed, &j->deck);
     j->most = c->most;
     if (c->action == COMMAND_ECHO)
         j->most.disk = j->most.steps = (double)INFINITY;
@@ -420,7 +421,8 @@ static bool fits(job *j)
 
 static bool ends(job *j)
 {
-    const estimate needed = estimate_run(&j->deck, j->simulation, estimate_duration(&j->deck));
+    estimate needed = estimate_run(&j->deck, j->simulation, estimate_duration(&j->deck));
+    slab_plan_share_memory(&needed, &j->deck);
     return keeps(j, &needed);
 }
 
@@ -434,26 +436,10 @@ static dem_status model_whole(job *j)
     return status;
 }
 
-static dem_status model_slabs(job *j)
-{
-    const deck *d = &j->deck;
-    size_t size = 0;
-    void *recipe = deck_slabs_recipe(&size, &d->slabs, d->echo);
-    if (recipe == NULL) return DEM_ERROR_MEMORY;
-    const slab_recipe all = {.bytes = recipe,
-                             .size = size,
-                             .obstacles = d->obstacles,
-                             .n_obstacles = d->n_obstacles,
-                             .options = &d->options};
-    const dem_status status = rank_group_slabs(j->command->ranks, &j->model, &all);
-    free(recipe);
-    return status;
-}
-
 static dem_status build(job *j)
 {
     const deck *d = &j->deck;
-    const dem_status status = d->slabs.are_made ? model_slabs(j) : model_whole(j);
+    const dem_status status = d->slabs.are_made ? slab_plan_model(&j->model, d, j->command->ranks) : model_whole(j);
     if (status != DEM_OK) return status;
     j->options = d->options;
     if (d->residual > 0.0 && j->options.mass_damping == 0.0)
@@ -609,21 +595,12 @@ static bool succeeded(job *j, deck_status status, namelist_errors *errors)
     return status == DECK_OK;
 }
 
-/* Bodies that are large enough, so that a rank has a share of them alone. */
-static void plan_slabs(job *j)
-{
-    const command *c = j->command;
-    if (c->ranks != NULL && c->ranks->size > 1 && j->nodes >= c->slab_nodes) j->deck.slabs.n = c->ranks->size;
-}
-
 static bool read_deck(job *j)
 {
     namelist_errors errors = {0};
     const command *c = j->command;
     if (!succeeded(j, deck_parse(&j->deck, j->file, c->settings, c->n_settings, &errors), &errors)) return false;
-    if (!fits(j)) return false;
-    plan_slabs(j);
-    return succeeded(j, deck_build(&j->deck, &errors), &errors);
+    return fits(j) && succeeded(j, deck_build(&j->deck, &errors), &errors);
 }
 
 static bool find_path(job *j)

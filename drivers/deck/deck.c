@@ -290,9 +290,12 @@ static bool set_probes(deck *d, const schema_deck *groups, const placement *bodi
 static bool look_at_slabs(deck *d, body_start *start, const body_scene *scene)
 {
     deck_slabs_found found;
-    if (d->slabs.n == 0 || !deck_slabs_suit(scene->groups)) return true;
+    if (d->slabs.n == 0) return true;
     if (!deck_slabs_look(&found, &d->slabs, scene)) return false;
-    if (!d->slabs.are_made) return true;
+    if (!d->slabs.are_made) {
+        d->slabs.n = 0;
+        return true;
+    }
     d->lattice = found.strip;
     d->facts = found.lattice;
     d->bodies[0] = found.body;

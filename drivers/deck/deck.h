@@ -63,8 +63,8 @@ typedef struct deck {
  * line -1 - k. Nothing is built yet. *out is empty unless DECK_OK is returned. */
 deck_status deck_parse(deck *out, const char *path, const setting *settings, size_t n, namelist_errors *errors);
 
-/* Builds what a deck that was parsed describes, in slabs where d->slabs.n is not 0 and it suits; what is wrong with the
- * geometry is reported for all bodies. To be called once. *d is empty unless DECK_OK is returned. */
+/* Builds what a deck that was parsed describes, in slabs where d->slabs.n is not 0, if it can be; what is wrong with
+ * the geometry is reported for all bodies. To be called once. *d is empty unless DECK_OK is returned. */
 deck_status deck_build(deck *d, namelist_errors *errors);
 
 void deck_free(deck *d);

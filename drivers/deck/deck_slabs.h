@@ -12,7 +12,7 @@
 bool deck_slabs_suit(const schema_deck *groups);
 
 typedef struct deck_slabs {
-    dem_index n;     /* slabs in which the body is looked at; 0: it is built as a whole */
+    dem_index n;     /* slabs in which the body is looked at, if the deck suits; 0: it is built as a whole */
     bool are_made;   /* its lattice is made in slabs, and the deck has none */
     double shift[2]; /* m, of the body to its clearance */
 } deck_slabs;

@@ -34,7 +34,7 @@ static deck read_in(dem_index n, const char *text)
     file_put(path, text, strlen(text));
     deck_status status = deck_parse(&d, path, NULL, 0, &errors);
     if (status == DECK_OK) {
-        d.slabs.n = n;
+        d.slabs.n = deck_slabs_suit(&d.groups) ? n : 0;
         status = deck_build(&d, &errors);
     }
     if (errors.n > 0) fail_msg("%s", errors.list[0].text);

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "slab_plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "rank_group.h"
+
+/* Bodies that are large enough, so that a rank has a share of them alone. */
+void slab_plan_decide(deck *d, const command *c, double nodes)
+{
+    const bool large = c->ranks != NULL && c->ranks->size > 1 && nodes >= c->slab_nodes;
+    if (large && deck_slabs_suit(&d->groups)) d->slabs.n = c->ranks->size;
+}
+
+/* Rank 0 has its share, and what it shows and writes of the whole (docs/performance.md). */
+void slab_plan_share_memory(estimate *e, const deck *d)
+{
+    static const double of_whole = 300.0; /* bytes a node, at least */
+    if (d->slabs.n > 0) e->memory = fmin(e->memory, e->memory / (double)d->slabs.n + of_whole * e->nodes);
+}
+
+dem_status slab_plan_model(dem_model **out, const deck *d, const rank_group *ranks)
+{
+    size_t size = 0;
+    void *recipe = deck_slabs_recipe(&size, &d->slabs, d->echo);
+    if (recipe == NULL) return DEM_ERROR_MEMORY;
+    const slab_recipe all = {.bytes = recipe,
+                             .size = size,
+                             .obstacles = d->obstacles,
+                             .n_obstacles = d->n_obstacles,
+                             .options = &d->options};
+    const dem_status status = rank_group_slabs(ranks, out, &all);
+    free(recipe);
+    return status;
+}

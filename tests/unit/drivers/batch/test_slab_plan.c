@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* slab_plan.c: by how many nodes and ranks a body is made in slabs, and what memory the largest rank is expected to
+ * take then. */
+#include "slab_plan.h"
+
+#include "rank_group.h"
+#include "unit/close.h"
+#include "unit/deck_text.h"
+
+#define RUN "&run t_end = 1 /\n&solver max_step = 1e-3 /\n&material youngs_modulus = 1e7, density = 1000 /\n"
+
+static dem_index slabs_for(deck *d, int n_ranks, double nodes)
+{
+    const rank_group group = {.size = n_ranks};
+    const command c = {.ranks = n_ranks > 0 ? &group : NULL, .slab_nodes = 1000.0};
+    d->slabs.n = 0;
+    slab_plan_decide(d, &c, nodes);
+    return d->slabs.n;
+}
+
+TEST(large_bodies_that_suit_are_made_by_several_ranks)
+{
+    CLEANUP(deck_free)
+    deck d = deck_text_good(RUN "&body shape = 'disc', radius = 0.05, spacing = 1e-2, outline = 'lattice' /\n");
+    CLEANUP(deck_free)
+    deck spins = deck_text_good(RUN "&body shape = 'disc', radius = 0.05, spacing = 1e-2, "
+                                    "outline = 'lattice', spin = 3 /\n");
+    assert_int_equal(slabs_for(&d, 4, 1000.0), 4);
+    assert_int_equal(slabs_for(&d, 4, 999.0), 0);
+    assert_int_equal(slabs_for(&d, 1, 1e6), 0);
+    assert_int_equal(slabs_for(&d, 0, 1e6), 0);
+    assert_int_equal(slabs_for(&spins, 4, 1e6), 0);
+}
+
+/* 300 bytes for each node of the whole besides a share, but no more than a process alone. */
+TEST(the_largest_rank_has_a_share_and_what_is_written)
+{
+    CLEANUP(deck_free)
+    deck d = deck_text_good(RUN "&body shape = 'disc', radius = 0.05, spacing = 1e-2, outline = 'lattice' /\n");
+    estimate whole = {.nodes = 1e6, .memory = 1e9}, of_4 = whole, small = {.nodes = 1e6, .memory = 2e8};
+    slab_plan_share_memory(&whole, &d);
+    assert_close(whole.memory, 1e9, 0.0);
+    d.slabs.n = 4;
+    slab_plan_share_memory(&of_4, &d);
+    assert_close(of_4.memory, 5.5e8, 0.0);
+    slab_plan_share_memory(&small, &d);
+    assert_close(small.memory, 2e8, 0.0);
+}
+
+TEST_GROUP(scratch_make, scratch_remove);
