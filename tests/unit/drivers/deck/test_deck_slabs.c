@@ -22,6 +22,10 @@ static const char *const suited[] = {
                "&pores number = 8, radius = 4e-3, 8e-3, wall = 8e-3, seed = 3 /\n",
     RUN GROUND "&body shape = 'polygon', points = 0, 0, 0.1, 0, 0.05, 0.03, 0.1, 0.1, 0, 0.1, spacing = 3e-3, "
                "outline = 'lattice', position = 0, 0.1 /\n",
+    /* A point reaches deep into the body, between its nodes. */
+    RUN "&obstacle points = -0.3, -0.02, 0.0008, -0.02, 0.0012, 0.022, 0.0016, -0.02, 0.3, -0.02 /\n"
+        "&body shape = 'rectangle', size = 0.06, 0.06, spacing = 5e-3, outline = 'lattice', clearance = 2e-4, "
+        "position = 0, -0.003 /\n",
 };
 enum { N_SUITED = sizeof suited / sizeof *suited, MOST_SLABS = 5 };
 
@@ -127,24 +131,30 @@ TEST(what_asks_for_more_is_built_as_a_whole)
     }
 }
 
-/* The whole names the place, the obstacle and the depth. */
+/* The whole names the place, the obstacle and the depth: of a node, and of a point between nodes that lies deeper in the
+ * body than its boundary strip does. */
 TEST(what_is_wrong_is_reported_as_of_the_whole)
 {
-    static const char text[] =
-        RUN GROUND "&body shape = 'disc', radius = 0.065, spacing = 4e-3, outline = 'lattice' /\n";
-    namelist_errors errors[2] = {{0}};
-    const char *path = folder_at(&scratch, "a.nml");
-    file_put(path, text, strlen(text));
-    for (int k = 0; k < 2; k++) {
-        deck d;
-        assert_int_equal(deck_parse(&d, path, NULL, 0, &errors[k]), DECK_OK);
-        d.slabs.n = k == 0 ? 0 : 3;
-        assert_int_equal(deck_build(&d, &errors[k]), DECK_INVALID);
+    static const char *const texts[] = {
+        RUN GROUND "&body shape = 'disc', radius = 0.065, spacing = 4e-3, outline = 'lattice' /\n", RUN
+        "&obstacle points = -0.3, -0.02, 0.0008, -0.02, 0.0012, 0.022, 0.0016, -0.02, 0.3, -0.02 /\n"
+        "&body shape = 'rectangle', size = 0.06, 0.06, spacing = 5e-3, outline = 'lattice', position = 0, -0.003 /\n"};
+    for (size_t t = 0; t < sizeof texts / sizeof *texts; t++) {
+        namelist_errors errors[2] = {{0}};
+        const char *path = folder_at(&scratch, "a.nml");
+        file_put(path, texts[t], strlen(texts[t]));
+        for (int k = 0; k < 2; k++) {
+            deck d;
+            assert_int_equal(deck_parse(&d, path, NULL, 0, &errors[k]), DECK_OK);
+            d.slabs.n = k == 0 ? 0 : 3;
+            assert_int_equal(deck_build(&d, &errors[k]), DECK_INVALID);
+        }
+        assert_true(errors[0].n > 0);
+        assert_int_equal(errors[0].n, errors[1].n);
+        for (size_t e = 0; e < errors[0].n; e++) assert_string_equal(errors[0].list[e].text, errors[1].list[e].text);
+        for (int k = 0; k < 2; k++) namelist_errors_free(&errors[k]);
+        assert_int_equal(unlink(path), 0);
     }
-    assert_int_equal(errors[0].n, errors[1].n);
-    for (size_t e = 0; e < errors[0].n; e++) assert_string_equal(errors[0].list[e].text, errors[1].list[e].text);
-    for (int k = 0; k < 2; k++) namelist_errors_free(&errors[k]);
-    assert_int_equal(unlink(path), 0);
 }
 
 TEST_GROUP(scratch_make, scratch_remove);
