@@ -19,6 +19,9 @@ static const dem_obstacle slope = {
     .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = slope_points, .restitution = 0.5};
 static const double down[2] = {0.5, -4.0};
 
+/* So large, in m, that no rank has all nodes, though what may touch, with rings about it, is common. */
+static const double width = 0.2, height = 0.3;
+
 static const dem_probe probes[] = {{.name = "node", .kind = DEM_PROBE_NODE, .number = {4, 0}, .every = 1},
                                    {.name = "spring", .kind = DEM_PROBE_SPRING, .number = {20, 0}, .every = 2},
                                    {.name = "gauge", .kind = DEM_PROBE_GAUGE, .number = {1, 12}, .every = 1}};
@@ -33,7 +36,7 @@ static dem_status assemble(dem_lattice *lattice)
                                  .density = 1050.0,
                                  .thickness = 1.0,
                                  .guard = 0.02};
-    const double up[2] = {0.01, 0.006};
+    const double up[2] = {0.01, 0.02};
     TRY(dem_lattice_assemble(lattice, &rubber));
     dem_lattice_move(lattice, 0.0, up);
     return dem_lattice_launch(lattice, down);
@@ -42,7 +45,7 @@ static dem_status assemble(dem_lattice *lattice)
 static dem_model *make_whole(void)
 {
     dem_lattice lattice = dem_lattice_empty();
-    assert_ok(dem_lattice_rectangle(&lattice, 0.03, 0.06, spacing));
+    assert_ok(dem_lattice_rectangle(&lattice, width, height, spacing));
     assert_ok(assemble(&lattice));
     dem_model *model = support_model(&lattice, &slope, 1);
     dem_lattice_free(&lattice);
@@ -53,11 +56,11 @@ static dem_model *make_whole(void)
 static dem_status make_slab(void *program, const void *recipe, size_t size, dem_index part, dem_index n_parts,
                             dem_slab *out)
 {
-    double height;
+    double given;
     (void)program;
-    if (size != sizeof height) return DEM_ERROR_ARGUMENT;
-    memcpy(&height, recipe, sizeof height);
-    TRY(dem_slab_rectangle(out, 0.03, height, spacing, part, n_parts));
+    if (size != sizeof given) return DEM_ERROR_ARGUMENT;
+    memcpy(&given, recipe, sizeof given);
+    TRY(dem_slab_rectangle(out, width, given, spacing, part, n_parts));
     return assemble(&out->lattice);
 }
 
@@ -132,7 +135,7 @@ static void lead(const ranks *r, void *context)
 
 static written prepare(const char *path)
 {
-    written w = {.height = 0.06, .options = dem_options_default(), .path = path};
+    written w = {.height = height, .options = dem_options_default(), .path = path};
     w.options.checkpoint_steps = 8;
     w.options.bodies = DEM_BODIES_NONE;
     return w;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* slab_survey.c: the strip that is collected slab by slab has the boundary nodes of the whole, in their order, and every
- * triangle at them; and parts and hinges are seen wherever the slabs are cut. */
+/* slab_survey.c: the strip that is collected slab by slab has the boundary nodes of the whole, in their order, and all
+ * triangles at them; and parts and hinges are seen wherever the slabs are cut. */
 #include "slab_survey.h"
 
 #include "harness/test.h"

@@ -131,8 +131,8 @@ TEST(what_asks_for_more_is_built_as_a_whole)
     }
 }
 
-/* The whole names the place, the obstacle and the depth: of a node, and of a point between nodes that lies deeper in the
- * body than its boundary strip does. */
+/* The whole names the place, the obstacle and the depth: of a node, and of a point between nodes that lies deeper in
+ * the body than its boundary strip does. */
 TEST(what_is_wrong_is_reported_as_of_the_whole)
 {
     static const char *const texts[] = {
