@@ -19,7 +19,7 @@
 #include "lattice/mesh_edges.h"
 #include "output/lattice_file.h"
 
-static long n_cases = 20000, first_seed = 1;
+static long n_cases = 10000, first_seed = 1;
 
 /* ---- cases ---- */
 
