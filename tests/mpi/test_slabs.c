@@ -8,6 +8,7 @@
 
 #include <dem/trajectory.h>
 
+#include "harness/slab_cut.h"
 #include "rank_test.h"
 
 static const double width = 0.05, height = 0.04, spacing = 2.5e-3;
@@ -70,37 +71,12 @@ static dem_lattice make_blocks(void)
     return l;
 }
 
-/* Own nodes and their neighbours. */
-static bool *mark(const dem_lattice *l, const dem_slab *s)
-{
-    bool *keep = calloc((size_t)l->n_nodes, sizeof *keep);
-    INSIST(keep != NULL);
-    for (dem_index k = 0; k < 3 * l->n_triangles; k++) {
-        const dem_index at = l->triangles[k] - s->first_node, first = k - k % 3;
-        for (dem_index c = first; at >= 0 && at < s->n_own && c < first + 3; c++) keep[l->triangles[c]] = true;
-    }
-    return keep;
-}
-
 /* Slabs of as many nodes, of which one has some of both blocks. */
 static dem_slab cut_slab(const dem_lattice *whole, team t)
 {
     const dem_index n = whole->n_nodes;
-    dem_slab s = dem_slab_empty();
-    dem_index n_rim = 0;
-    s.n_nodes = n;
-    s.n_triangles = whole->n_triangles;
-    s.first_node = n * t.rank / t.size;
-    s.n_own = n * (t.rank + 1) / t.size - s.first_node;
-    bool *keep = mark(whole, &s);
-    INSIST(dem_lattice_append(&s.lattice, whole) == DEM_OK && dem_lattice_select(&s.lattice, keep) == DEM_OK);
-    s.rim = malloc((size_t)n * sizeof *s.rim);
-    INSIST(s.rim != NULL);
-    for (dem_index i = 0; i < n; i++) {
-        if (i == s.first_node) s.first_own = n_rim;
-        if (keep[i] && (i < s.first_node || i >= s.first_node + s.n_own)) s.rim[n_rim++] = i;
-    }
-    free(keep);
+    const dem_slab s = slab_cut(whole, n * t.rank / t.size, n * (t.rank + 1) / t.size);
+    INSIST(s.n_own > 0);
     return s;
 }
 

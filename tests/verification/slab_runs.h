@@ -34,7 +34,4 @@ void slab_runs_go(slab_runs *runs, int n);
 /** n ranks have the models of ranks that cut them from the whole, and see what a process alone has seen. */
 void slab_runs_assert_same(const slab_runs_scene *scene, int n, const rank_runs_outcome *whole);
 
-/** Cuts by hand the slab with own nodes `first` to `end` - 1 out of a lattice, whatever bodies it is of. */
-dem_slab slab_runs_cut(const dem_lattice *whole, dem_index first, dem_index end);
-
 #endif

@@ -8,6 +8,7 @@
 #include "support.h"
 
 #include "harness/message.h"
+#include "harness/slab_cut.h"
 
 enum { FLOOR_POINTS = 31 };
 static const double spacing = 2.5e-3;
@@ -100,7 +101,9 @@ static dem_slab cut_blocks(const scene *s, int part, int n_parts)
         ends[k] = n * (part + k) / n_parts;
         if (n_parts == 2 && part + k == 1) ends[k] = s->n_lower;
     }
-    return slab_runs_cut(&s->whole, ends[0], ends[1]);
+    const dem_slab slab = slab_cut(&s->whole, ends[0], ends[1]);
+    assert_true(slab.n_own > 0);
+    return slab;
 }
 
 /* Of one body, of which numbers come behind those of the other. */
