@@ -11,9 +11,9 @@
 typedef struct clearance_body {
     const dem_model *model;
     const dem_lattice *lattice;
-    bool
-        is_strip; /* the lattice has but the triangles at the boundary of the body, whose nodes are those that may touch
-                     (slab_survey.h) */
+    /* Whether the lattice has but the triangles at the boundary of the body, whose nodes are those that may touch
+     * (slab_survey.h). */
+    bool is_strip;
 } clearance_body;
 
 /* The shift along `gravity` (not 0) after which the smallest gap between body and obstacles, where the motion starts,

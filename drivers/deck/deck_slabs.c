@@ -110,7 +110,7 @@ static dem_status place(deck_slabs_found *f, slab_survey *s, const body_scene *s
     return errors->n == 0 ? DEM_OK : DEM_ERROR_MODEL;
 }
 
-void deck_slabs_forget(deck_slabs_found *f)
+static void forget(deck_slabs_found *f)
 {
     dem_lattice_free(&f->strip);
     lattice_facts_free(&f->lattice);
@@ -128,7 +128,7 @@ bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const body_scene 
     memcpy(slabs->shift, out->start.shift, sizeof slabs->shift);
     slab_survey_free(&s);
     namelist_errors_free(&errors);
-    if (status != DEM_OK) deck_slabs_forget(out);
+    if (status != DEM_OK) forget(out);
     return status != DEM_ERROR_MEMORY;
 }
 

@@ -25,10 +25,9 @@ typedef struct deck_slabs_found {
     body_start start;
 } deck_slabs_found;
 
-/* Looks at the body slab by slab. Where slabs->are_made is false afterwards nothing has been found. To be ended with
- * deck_slabs_forget(), but for what is taken over. False when memory runs out. */
+/* Looks at the body slab by slab. Where slabs->are_made is false afterwards nothing has been found; else the caller
+ * owns it. False when memory runs out. */
 bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const body_scene *scene);
-void deck_slabs_forget(deck_slabs_found *f);
 
 /* What rank 0 sends to the others: bytes, malloc'ed; NULL when memory runs out.
  * \param echo  the resolved deck */

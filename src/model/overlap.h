@@ -21,8 +21,7 @@ typedef struct overlap {
     const unsigned char *broken;   /* [n_triangles] 1: broken; NULL: all are whole */
     box reach;                     /* m, around all triangles here */
     dem_index n_cells, columns, rows;
-    int32_t *first,
-        *next; /* [n_cells], [nodes.n] nodes in the cells of a grid over those in reach, as lists; < 0: none */
+    int32_t *first, *next;              /* [n_cells], [nodes.n] nodes in reach, listed by cells of a grid; < 0: none */
     double left, low, cells_per_length; /* m, where the grid begins; 1/m */
     uint32_t *place;                    /* [n_nodes] row and column of each node of the lattice: scratch of a look;
                                            NULL: there are no triangles, on any rank */
