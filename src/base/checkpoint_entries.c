@@ -161,11 +161,18 @@ dem_status dem_checkpoint_get(const dem_checkpoint *checkpoint, const char *name
     return DEM_OK;
 }
 
+dem_status checkpoint_entries_choose(dem_checkpoint *into, const dem_checkpoint *from, checkpoint_entries_choice *takes)
+{
+    for (dem_index k = 0; k < from->n; k++) {
+        const entry *e = &from->entries[k];
+        if (takes == NULL || takes(e->name)) TRY(dem_checkpoint_put(into, e->name, e->data, e->size));
+    }
+    return DEM_OK;
+}
+
 dem_status checkpoint_entries_copy(dem_checkpoint *into, const dem_checkpoint *from)
 {
-    for (dem_index k = 0; k < from->n; k++)
-        TRY(dem_checkpoint_put(into, from->entries[k].name, from->entries[k].data, from->entries[k].size));
-    return DEM_OK;
+    return checkpoint_entries_choose(into, from, NULL);
 }
 
 dem_status checkpoint_entries_move(dem_checkpoint *into, dem_checkpoint *from)
@@ -235,14 +242,14 @@ static dem_status share_entry(const ranks *r, const notice *of, void *data, dem_
     return reduce_status(r, status, 0.0);
 }
 
-dem_status checkpoint_entries_share(const ranks *r, const dem_checkpoint *from, dem_checkpoint *into)
+dem_status checkpoint_entries_share(const ranks *r, dem_checkpoint *checkpoint)
 {
     if (r->size == 1) return DEM_OK;
     for (dem_index k = 0;; k++) {
-        notice next = r->rank == 0 ? notice_of(from, k) : (notice){.is_known = false};
+        notice next = r->rank == 0 ? notice_of(checkpoint, k) : (notice){.is_known = false};
         r->reduce(r->self, &next, sizeof next, join_notices);
         if (next.is_last) return DEM_OK;
-        TRY(share_entry(r, &next, r->rank == 0 ? from->entries[k].data : NULL, into));
+        TRY(share_entry(r, &next, r->rank == 0 ? checkpoint->entries[k].data : NULL, checkpoint));
     }
 }
 

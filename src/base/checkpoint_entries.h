@@ -3,12 +3,20 @@
 #ifndef DEM_BASE_CHECKPOINT_ENTRIES_H
 #define DEM_BASE_CHECKPOINT_ENTRIES_H
 
+#include <stdbool.h>
+
 #include <dem/checkpoint.h>
 
 #include "base/ranks.h"
 
 /** Puts all entries of a checkpoint into another.  \return DEM_ERROR_MEMORY */
 dem_status checkpoint_entries_copy(dem_checkpoint *into, const dem_checkpoint *from);
+
+/** The same with those of some names.
+ *  \param takes  whether an entry of this name is wanted; NULL: all are */
+typedef bool checkpoint_entries_choice(const char *name);
+dem_status checkpoint_entries_choose(dem_checkpoint *into, const dem_checkpoint *from,
+                                     checkpoint_entries_choice *takes);
 
 /** Moves all entries of a checkpoint into another, in place of those of the same names. The first is empty afterwards.
  *  \return DEM_ERROR_MEMORY, with some of them moved, which are empty in the first */
@@ -25,10 +33,8 @@ void checkpoint_entries_free(dem_checkpoint *checkpoint);
 dem_status checkpoint_entries_make(dem_checkpoint *checkpoint, const char *name, size_t size, void **data);
 
 /** Puts all entries of rank 0's checkpoint into that of every other rank. Collective.
- *  \param from  read on rank 0
- *  \param into  written on the others
  *  \return DEM_ERROR_MEMORY, on all ranks */
-dem_status checkpoint_entries_share(const ranks *r, const dem_checkpoint *from, dem_checkpoint *into);
+dem_status checkpoint_entries_share(const ranks *r, dem_checkpoint *checkpoint);
 
 typedef struct checkpoint_entries_way {
     dem_checkpoint *into;       /* where to write; NULL: read from `from` */

@@ -71,7 +71,7 @@ static dem_status create(led_run *l, dem_checkpoint *entries, bool resumes, cons
 {
     shared_problem p = {0};
     led_ranks_enter(l);
-    dem_status status = checkpoint_entries_share(&l->ranks, entries, entries);
+    dem_status status = checkpoint_entries_share(&l->ranks, entries);
     if (status == DEM_OK) status = reduce_status(&l->ranks, shared_problem_get(&p, entries), 0.0);
     if (status == DEM_OK) status = create_part(l, &p, resumes, checkpoint);
     led_ranks_leave(l);

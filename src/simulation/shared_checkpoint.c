@@ -3,7 +3,6 @@
  * which all ranks have alike; and what is broken, of which all have the same by other numbers. */
 #include "simulation/shared_checkpoint.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/checkpoint_entries.h"
@@ -12,14 +11,14 @@
 #include "domain/gather.h"
 #include "simulation/shared_breaks.h"
 
-static const char entry[] = "state";
+static const char entry[] = "state", quadratures[] = "quadratures";
 
-/* The state of the whole, in place of that of a part. */
-static dem_status make_state(dem_checkpoint *checkpoint, const state_layout *of, double **out)
+/* An entry that is a state, at first zero, in place of what there is. */
+static dem_status make_state(dem_checkpoint *checkpoint, const char *name, const state_layout *of, double **out)
 {
     void *bytes;
     const size_t size = (size_t)state_size(of) * sizeof **out;
-    TRY(checkpoint_entries_make(checkpoint, entry, size, &bytes));
+    TRY(checkpoint_entries_make(checkpoint, name, size, &bytes));
     *out = memset(bytes, 0, size);
     return DEM_OK;
 }
@@ -33,7 +32,7 @@ dem_status shared_checkpoint_gather(const dem_simulation *s, dem_checkpoint *che
     const gather_items nodes = gather_nodes(m->domain);
     const size_t row = (size_t)of->dim * sizeof *v;
     double *whole = NULL;
-    dem_status status = is_root ? make_state(checkpoint, of, &whole) : DEM_OK;
+    dem_status status = is_root ? make_state(checkpoint, entry, of, &whole) : DEM_OK;
     status = reduce_status(m->ranks, status, 0.0);
     if (status == DEM_OK) status = gather_rows(m->ranks, &nodes, row, s->y, whole);
     if (status == DEM_OK) status = gather_rows(m->ranks, &nodes, row, v, is_root ? whole + state_velocities(of) : NULL);
@@ -44,34 +43,58 @@ dem_status shared_checkpoint_gather(const dem_simulation *s, dem_checkpoint *che
     return reduce_status(m->ranks, status, 0.0);
 }
 
-/* The rows of all nodes here. */
-static dem_status cut_state(const dem_simulation *s, dem_checkpoint *part)
+/* ---- the other way round ---- */
+
+/* Names with a point are those of observers, which rank 0 alone has. Rows of nodes go to those who have these. */
+static bool is_for_all(const char *name)
 {
-    const domain *d = s->model->domain;
-    const state_layout *of = &s->shared.whole;
-    const size_t n = (size_t)state_size(&s->layout), expected = (size_t)state_size(of) * sizeof(double);
+    return strcmp(name, entry) != 0 && strchr(name, '.') == NULL;
+}
+
+static state_layout without_nodes(const state_layout *of)
+{
+    return state_layout_of(of->dim, 0, of->n_obstacles, state_has_total(of, STATE_OBSTACLE));
+}
+
+/* On rank 0 what all ranks get: entries, and the quadratures as a state of no nodes. */
+static dem_status choose(const state_layout *of, const dem_checkpoint *whole, dem_checkpoint *part)
+{
+    const state_layout none = without_nodes(of);
+    const size_t expected = (size_t)state_size(of) * sizeof(double);
+    size_t size;
+    double *y;
+    const double *state = dem_checkpoint_find(whole, entry, &size);
+    CHECK(state != NULL && size == expected, DEM_ERROR_IO, "the checkpoint has %zu bytes of state, %zu are expected",
+          size, expected);
+    TRY(checkpoint_entries_choose(part, whole, is_for_all));
+    TRY(make_state(part, quadratures, &none, &y));
+    state_copy_quadratures(y, &none, state, of);
+    return DEM_OK;
+}
+
+/* The rows of all nodes here. */
+static dem_status spread_state(const dem_simulation *s, const dem_checkpoint *whole, dem_checkpoint *part)
+{
+    const ranks *r = s->model->ranks;
+    const state_layout *of = &s->shared.whole, none = without_nodes(of);
+    const gather_items nodes = gather_nodes(s->model->domain);
     const size_t row = (size_t)of->dim * sizeof(double);
     size_t size;
-    const double *whole = dem_checkpoint_find(part, entry, &size);
-    CHECK(whole != NULL && size == expected, DEM_ERROR_IO, "the checkpoint has %zu bytes of state, %zu are expected",
-          size, expected);
-    double *y = calloc(n, sizeof *y), *v = y + state_velocities(&s->layout);
-    CHECK(y != NULL, DEM_ERROR_MEMORY, "out of memory for a checkpoint");
-    for (dem_index i = 0; i < d->n_nodes; i++) {
-        memcpy(y + of->dim * i, whole + of->dim * d->number[i], row);
-        memcpy(v + of->dim * i, whole + state_velocities(of) + of->dim * d->number[i], row);
-    }
-    state_copy_quadratures(y, &s->layout, whole, of);
-    const dem_status status = dem_checkpoint_put(part, entry, y, n * sizeof *y);
-    free(y);
-    return status;
+    double *y = NULL;
+    const double *x = r->rank == 0 ? dem_checkpoint_find(whole, entry, &size) : NULL;
+    const double *v = r->rank == 0 ? x + state_velocities(of) : NULL;
+    TRY(reduce_status(r, make_state(part, entry, &s->layout, &y), 0.0));
+    TRY(gather_back(r, &nodes, row, x, y));
+    TRY(gather_back(r, &nodes, row, v, y + state_velocities(&s->layout)));
+    state_copy_quadratures(y, &s->layout, dem_checkpoint_find(part, quadratures, &size), &none);
+    return DEM_OK;
 }
 
 dem_status shared_checkpoint_scatter(const dem_simulation *s, const dem_checkpoint *whole, dem_checkpoint *part)
 {
     const ranks *r = s->model->ranks;
-    TRY(reduce_status(r, r->rank == 0 ? checkpoint_entries_copy(part, whole) : DEM_OK, 0.0));
-    TRY(checkpoint_entries_share(r, whole, part));
-    TRY(reduce_status(r, cut_state(s, part), 0.0));
+    TRY(reduce_status(r, r->rank == 0 ? choose(&s->shared.whole, whole, part) : DEM_OK, 0.0));
+    TRY(checkpoint_entries_share(r, part));
+    TRY(spread_state(s, whole, part));
     return reduce_status(r, shared_breaks_cut(s, part), 0.0);
 }

@@ -47,7 +47,7 @@ dem_status shared_slabs_create(dem_model **part, const ranks *r, const slab_make
     dem_status status = dem_checkpoint_create(&entries);
     if (status == DEM_OK) status = put(entries, recipe);
     status = reduce_status(r, status, 0.0);
-    if (status == DEM_OK) status = checkpoint_entries_share(r, entries, entries);
+    if (status == DEM_OK) status = checkpoint_entries_share(r, entries);
     if (status == DEM_OK) status = share(part, r, maker, entries);
     dem_checkpoint_destroy(entries);
     return status;

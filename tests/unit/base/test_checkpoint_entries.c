@@ -74,7 +74,7 @@ static void assert_same_files(const char *a, const char *b)
 /* ---- entries ---- */
 
 typedef struct sharing {
-    const dem_checkpoint *from;
+    dem_checkpoint *from;
     bool is_same[4]; /* of each rank */
 } sharing;
 
@@ -83,9 +83,9 @@ static void share_as_rank(const ranks *r, void *context)
     sharing *c = context;
     dem_checkpoint *into = NULL;
     size_t size[3];
-    const bool is_shared = dem_checkpoint_create(&into) == DEM_OK &&
-                           checkpoint_entries_share(r, r->rank == 0 ? c->from : NULL, into) == DEM_OK;
-    const dem_checkpoint *got = r->rank == 0 ? c->from : into;
+    const bool is_made = dem_checkpoint_create(&into) == DEM_OK;
+    dem_checkpoint *got = r->rank == 0 ? c->from : into;
+    const bool is_shared = is_made && checkpoint_entries_share(r, got) == DEM_OK;
     const char *word = dem_checkpoint_find(got, "word", &size[0]);
     const void *nothing = dem_checkpoint_find(got, "nothing", &size[1]);
     const double *numbers = dem_checkpoint_find(got, "numbers", &size[2]);
@@ -122,6 +122,24 @@ TEST(entries_are_copied_replaced_and_found)
     check(other);
     dem_checkpoint_destroy(other);
     dem_checkpoint_destroy(NULL);
+}
+
+static bool is_no_word(const char *name)
+{
+    return strcmp(name, "word") != 0;
+}
+
+TEST(some_entries_are_copied)
+{
+    CLEANUP(free_checkpoint) dem_checkpoint *from = make();
+    CLEANUP(free_checkpoint) dem_checkpoint *into = NULL;
+    size_t size;
+    assert_ok(dem_checkpoint_create(&into));
+    assert_ok(checkpoint_entries_choose(into, from, is_no_word));
+    assert_null(dem_checkpoint_find(into, "word", &size));
+    assert_non_null(dem_checkpoint_find(into, "nothing", &size));
+    (void)dem_checkpoint_find(into, "numbers", &size);
+    assert_int_equal(size, 8000);
 }
 
 /* In the order that they had, as files of them are compared; what the other one had besides stays. */
