@@ -290,8 +290,10 @@ class Check(Case):
         self.assertAlmostEqual(given * 1e6 / nodes, each, delta=1e-3 * each)
         self.assertLess(checked, given)  # a run has frames and peaks besides
         few, libraries, _ = self.run_measured("1e-2")
-        growth = (resident - libraries) / (given - few)  # 0.94; what was freed may not be given back
-        self.assertTrue(0.8 < growth < 1.2)
+        # Vectors of the state have 24 times 32 of the 1680 bytes a node, of which steps that are waves write 5: 0.64 at
+        # least. Processors differ: 0.80 on one, 0.94 on another. What was freed may not be given back.
+        growth = (resident - libraries) / (given - few)
+        self.assertTrue(0.6 < growth < 1.2, growth)
 
     def test_steps_of_one_length(self):
         self.put(coarse() + "&solver method = 'rk4' /\n")
