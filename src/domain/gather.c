@@ -10,8 +10,6 @@
 #include "base/reduce.h"
 #include "base/status.h"
 
-enum { PIECE = 1 << 16 }; /* items of the whole */
-
 typedef struct collection {
     const ranks *ranks;
     const gather_items *items;
@@ -86,24 +84,25 @@ static void pack(const collection *c, dem_index behind)
     }
 }
 
-static void unpack(const collection *c, unsigned char *whole)
+/* \param to  of the rows of the whole from row `first` on */
+static void unpack(const collection *c, dem_index first, unsigned char *to)
 {
     for (int k = 0; k < c->ranks->size; k++) {
         const dem_index *number = (const dem_index *)(void *)c->bytes[k];
         const unsigned char *from = (const unsigned char *)(number + c->n[k]);
         for (dem_index q = 0; q < c->n[k]; q++)
-            memcpy(whole + (size_t)number[q] * c->size, from + (size_t)q * c->size, c->size);
+            memcpy(to + (size_t)(number[q] - first) * c->size, from + (size_t)q * c->size, c->size);
     }
 }
 
-static void collect_piece(collection *c, dem_index end, unsigned char *whole)
+static void collect_piece(collection *c, dem_index first, unsigned char *to)
 {
-    const dem_index behind = count(c, end);
+    const dem_index behind = count(c, first + GATHER_CHUNK);
     send_to_root(c, true);
     lay_out(c);
     pack(c, behind);
     send_to_root(c, false);
-    if (c->ranks->rank == 0) unpack(c, whole);
+    if (c->ranks->rank == 0) unpack(c, first, to);
     c->next = behind;
 }
 
@@ -116,7 +115,7 @@ static dem_status allocate(collection *c)
     c->bytes = calloc(n, sizeof *c->bytes);
     c->sent = calloc(n, sizeof *c->sent);
     c->received = calloc(n, sizeof *c->received);
-    c->buffer = malloc(size_of(c, most < PIECE ? most : PIECE) + n * sizeof(dem_index));
+    c->buffer = malloc(size_of(c, most < GATHER_CHUNK ? most : GATHER_CHUNK) + n * sizeof(dem_index));
     CHECK(c->n && c->bytes && c->sent && c->received && c->buffer, DEM_ERROR_MEMORY,
           "out of memory for rows of %d ranks", c->ranks->size);
     return DEM_OK;
@@ -135,10 +134,39 @@ dem_status gather_rows(const ranks *r, const gather_items *items, size_t size, c
 {
     collection c = {.ranks = r, .items = items, .size = size, .from = from};
     const dem_status status = reduce_status(r, allocate(&c), 0.0);
-    for (dem_index end = PIECE; status == DEM_OK && end - PIECE < items->n_whole; end += PIECE)
-        collect_piece(&c, end, whole);
+    for (dem_index first = 0; status == DEM_OK && first < items->n_whole; first += GATHER_CHUNK)
+        collect_piece(&c, first, r->rank == 0 ? (unsigned char *)whole + (size_t)first * size : NULL);
     release(&c);
     return status;
+}
+
+/* A piece on rank 0, beside the messages of which it is made. */
+static dem_status allocate_piece(const collection *c, unsigned char **piece)
+{
+    const dem_index all = c->items->n_whole, most = all < GATHER_CHUNK ? all : GATHER_CHUNK;
+    *piece = c->ranks->rank == 0 ? malloc((size_t)most * c->size + 1) : NULL;
+    CHECK(c->ranks->rank > 0 || *piece != NULL, DEM_ERROR_MEMORY, "out of memory for rows of %d ranks", c->ranks->size);
+    return DEM_OK;
+}
+
+dem_status gather_chunks(const ranks *r, const gather_items *items, size_t size, const void *from, gather_taker *take,
+                         void *context)
+{
+    collection c = {.ranks = r, .items = items, .size = size, .from = from};
+    const dem_index all = items->n_whole;
+    unsigned char *piece = NULL;
+    dem_status ready = allocate(&c);
+    if (ready == DEM_OK) ready = allocate_piece(&c, &piece);
+    ready = reduce_status(r, ready, 0.0);
+    dem_status taken = ready;
+    for (dem_index first = 0; ready == DEM_OK && first < all; first += GATHER_CHUNK) {
+        const dem_index left = all - first, n = left < GATHER_CHUNK ? left : GATHER_CHUNK;
+        collect_piece(&c, first, piece);
+        if (r->rank == 0 && taken == DEM_OK) taken = take(context, first, n, piece);
+    }
+    free(piece);
+    release(&c);
+    return ready == DEM_OK ? reduce_status(r, taken, 0.0) : ready;
 }
 
 /* ---- back ---- */
@@ -170,7 +198,7 @@ dem_status gather_back(const ranks *r, const gather_items *items, size_t size, c
     collection c = {.ranks = r, .items = items, .size = size};
     const dem_status status = reduce_status(r, allocate(&c), 0.0);
     for (dem_index first = 0, end; status == DEM_OK && first < items->n_whole; first = end) {
-        end = first + PIECE < items->n_whole ? first + PIECE : items->n_whole;
+        end = first + GATHER_CHUNK < items->n_whole ? first + GATHER_CHUNK : items->n_whole;
         /* Messages are not const, whoever sends them. */
         void *piece = r->rank == 0 ? (void *)((uintptr_t)whole + (size_t)first * size) : c.buffer;
         send_piece(&c, (size_t)(end - first) * size, piece);

@@ -67,15 +67,17 @@ uint64_t lattice_arrays_hash_counts(const dem_lattice *l)
     return random_mix(n) ^ random_mix(s + 1) ^ random_mix(t + 2);
 }
 
-uint64_t lattice_arrays_hash_next(uint64_t hash, const dem_lattice *l, int k, const void *items)
+uint64_t lattice_arrays_hash_next(uint64_t hash, int k, const void *items, dem_index n)
 {
-    return random_hash(hash, items, (size_t)lattice_count(l, lattice_arrays[k].of) * lattice_arrays[k].size);
+    return random_hash(hash, items, (size_t)n * lattice_arrays[k].size);
 }
 
 uint64_t lattice_arrays_hash(const dem_lattice *l)
 {
     uint64_t hash = lattice_arrays_hash_counts(l);
-    for (int k = 0; k < LATTICE_ARRAYS; k++)
-        hash = lattice_arrays_hash_next(hash, l, k, lattice_array_of(l, &lattice_arrays[k]));
+    for (int k = 0; k < LATTICE_ARRAYS; k++) {
+        const lattice_array *a = &lattice_arrays[k];
+        hash = lattice_arrays_hash_next(hash, k, lattice_array_of(l, a), lattice_count(l, a->of));
+    }
     return hash;
 }

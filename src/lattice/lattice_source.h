@@ -4,6 +4,7 @@
 #ifndef DEM_LATTICE_LATTICE_SOURCE_H
 #define DEM_LATTICE_LATTICE_SOURCE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include <dem/dem.h>
@@ -13,19 +14,30 @@ typedef struct lattice_source {
     const dem_model *whole;     /* of which ranks have the arrays; NULL: all are here */
 } lattice_source;
 
-/** Of the lattice of a model. Defined in model/whole_of_parts.c, as the next ones are: those who write files see no
+/** Of the lattice of a model. Defined in model/lattice_source.c, as the next ones are: those who write files see no
  *  more of a model than its public headers. They are exported for dem_batch; no other program may call them. */
 DEM_API lattice_source dem_private_lattice_source(const dem_model *model);
+
+/** Takes n items of an array, from item `first` on, which are lost afterwards. It asks ranks for nothing, as they take
+ *  part in what hands items over. */
+typedef dem_status source_taker(void *context, dem_index first, dem_index n, const void *items);
+
+/** Hands an array over, so many items after the other, so that nobody needs memory for all; nothing of one that the
+ *  lattice does not have. On rank 0 where ranks have parts, while the others wait for what it asks of them.
+ *  \param member  offset of the array's pointer in a dem_lattice
+ *  \return DEM_ERROR_MEMORY, and the failure of `take`, which is not called again then */
+enum { LATTICE_SOURCE_CHUNK = 1 << 16 };
+dem_status dem_private_lattice_visit(const lattice_source *from, size_t member, source_taker *take, void *context);
+
+/** Whether there is such an array. */
+bool dem_private_lattice_has(const lattice_source *from, size_t member);
 
 typedef struct source_array {
     const void *items; /* NULL: the lattice has no such array */
     void *gathered;    /* the same, if it has come from ranks; NULL: it is the lattice's */
 } source_array;
 
-/** Gets an array. On rank 0 where ranks have parts, while the others wait for what it asks of them. Close it, after a
- *  failure, too.
- *  \param member  offset of the array's pointer in a dem_lattice
- *  \return DEM_ERROR_MEMORY */
+/** Gets all of an array. Close it, after a failure, too.  \return DEM_ERROR_MEMORY */
 DEM_API dem_status dem_private_lattice_open(source_array *out, const lattice_source *from, size_t member);
 DEM_API void dem_private_lattice_close(source_array *a);
 

@@ -2,6 +2,7 @@
 /* The pieces that springs join which are not broken, and numbers of the whole of them. */
 #include "model/fragments.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 
 #include "base/exact_sum.h"
@@ -117,5 +118,52 @@ dem_status fragments_measure(const dem_lattice *l, const element_state *elements
     free(room.next);
     free(room.mass);
     CHECK(good, DEM_ERROR_MEMORY, "out of memory for the fragments of %zu nodes", n);
+    return DEM_OK;
+}
+
+/* ---- of what ranks have ---- */
+
+static dem_status unite(void *fragment, dem_index first, dem_index n, const void *items)
+{
+    const dem_index *ends = items;
+    (void)first;
+    for (dem_index k = 0; k < n; k++) union_find_unite(fragment, ends[2 * k], ends[2 * k + 1]);
+    return DEM_OK;
+}
+
+static dem_status are_one(const lattice_source *from, bool *one)
+{
+    const dem_index n = from->lattice->n_nodes;
+    dem_index *fragment = malloc((size_t)n * sizeof *fragment);
+    CHECK_MEMORY(fragment);
+    union_find_start(fragment, n);
+    const dem_status status = dem_private_lattice_visit(from, offsetof(dem_lattice, ends), unite, fragment);
+    *one = true;
+    for (dem_index i = 1; i < n; i++) *one = *one && fragment[i] != i;
+    free(fragment);
+    return status;
+}
+
+static dem_status measure_several(const lattice_source *from, dem_fracture *out)
+{
+    dem_lattice l = *from->lattice;
+    source_array ends, mass = {0};
+    dem_status status = dem_private_lattice_open(&ends, from, offsetof(dem_lattice, ends));
+    if (status == DEM_OK) status = dem_private_lattice_open(&mass, from, offsetof(dem_lattice, mass));
+    l.ends = (dem_index *)(uintptr_t)ends.items;
+    l.mass = (double *)(uintptr_t)mass.items;
+    if (status == DEM_OK) status = fragments_measure(&l, NULL, out);
+    dem_private_lattice_close(&ends);
+    dem_private_lattice_close(&mass);
+    return status;
+}
+
+dem_status fragments_measure_source(const lattice_source *from, double mass, dem_fracture *out)
+{
+    bool one = false;
+    TRY(are_one(from, &one));
+    if (!one) return measure_several(from, out);
+    *out = (dem_fracture){.struct_size = sizeof *out, .fragments = 1, .largest = 1.0, .median = mass};
+    out->debris = from->lattice->n_nodes == 1 ? 1.0 : 0.0;
     return DEM_OK;
 }

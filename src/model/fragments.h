@@ -3,6 +3,7 @@
 #ifndef DEM_MODEL_FRAGMENTS_H
 #define DEM_MODEL_FRAGMENTS_H
 
+#include "lattice/lattice_source.h"
 #include "model/element_state.h"
 
 /** Nodes joined by springs that are not broken are of one fragment, whatever else breaks or broke before. A node
@@ -14,5 +15,10 @@ dem_index fragments_find(const dem_lattice *lattice, const double *integrity, de
 
 /** How much is broken, and into what.  \param elements  NULL: all are whole  \return DEM_ERROR_MEMORY */
 dem_status fragments_measure(const dem_lattice *lattice, const element_state *elements, dem_fracture *out);
+
+/** The same of a lattice of which all is whole, and ranks have the arrays.
+ *  \param mass  of all, kg
+ *  \return DEM_ERROR_MEMORY, as where there are several fragments, whose nodes then take 88 bytes each */
+dem_status fragments_measure_source(const lattice_source *from, double mass, dem_fracture *out);
 
 #endif

@@ -9,6 +9,7 @@
 #include "elastic/layout.h"
 #include "elastic/springs.h"
 #include "elastic/triangles.h"
+#include "lattice/lattice_source.h"
 #include "model/csr_view.h"
 #include "model/rigid_bodies.h"
 #include "model/stress.h"
@@ -16,10 +17,10 @@
 #include "model/touching_bodies.h"
 #include "obstacle/obstacle.h"
 
-/** Gathers an array of the lattice from the parts that ranks have (whole_of_parts_gather()), on rank 0, which has the
+/** Hands over an array of the lattice of which ranks have the parts (whole_of_parts_visit()), on rank 0, which has the
  *  others take part in it.
  *  \param array  its number in lattice_arrays */
-typedef dem_status model_array_asker(const dem_model *whole, int array, void *items);
+typedef dem_status model_array_asker(const dem_model *whole, int array, source_taker *take, void *context);
 
 struct dem_model {
     const ranks *ranks;           /* that share it */

@@ -9,7 +9,6 @@
 #include "base/status.h"
 #include "domain/gather.h"
 #include "lattice/lattice_arrays.h"
-#include "lattice/lattice_source.h"
 #include "obstacle/obstacle_set.h"
 
 /* ---- the model ---- */
@@ -82,64 +81,24 @@ static dem_index *number_corners(const dem_model *part, const dem_index *corner,
     return number;
 }
 
-static dem_status gather_corners(const dem_model *part, const lattice_array *a, const gather_items *items, void *whole)
+static dem_status visit_corners(const dem_model *part, const lattice_array *a, const gather_items *items,
+                                source_taker *take, void *context)
 {
     const dem_index *corner = lattice_array_of(&part->lattice, a);
     dem_index *number = number_corners(part, corner, (size_t)(items->n * items->n_corners));
     dem_status status = number == NULL ? status_fail(DEM_ERROR_MEMORY, "out of memory for what ranks have") : DEM_OK;
     status = reduce_status(part->ranks, status, 0.0);
-    if (status == DEM_OK) status = gather_rows(part->ranks, items, a->size, number, whole);
+    if (status == DEM_OK) status = gather_chunks(part->ranks, items, a->size, number, take, context);
     free(number);
     return status;
 }
 
-dem_status whole_of_parts_gather(const dem_model *part, int array, void *whole)
+_Static_assert((int)LATTICE_SOURCE_CHUNK == (int)GATHER_CHUNK, "pieces come as they are gathered");
+
+dem_status whole_of_parts_visit(const dem_model *part, int array, source_taker *take, void *context)
 {
     const lattice_array *a = &lattice_arrays[array];
     const gather_items items = items_of(part, a->of);
-    if (lattice_array_is_corners(a)) return gather_corners(part, a, &items, whole);
-    return gather_rows(part->ranks, &items, a->size, lattice_array_of(&part->lattice, a), whole);
-}
-
-lattice_source dem_private_lattice_source(const dem_model *model)
-{
-    return (lattice_source){.lattice = &model->lattice, .whole = model->part != NULL ? model : NULL};
-}
-
-static int find_array(size_t member)
-{
-    int k = 0;
-    while (lattice_arrays[k].offset != member) k++;
-    return k;
-}
-
-dem_status dem_private_lattice_open(source_array *out, const lattice_source *from, size_t member)
-{
-    const int k = find_array(member);
-    const lattice_array *a = &lattice_arrays[k];
-    const dem_model *whole = from->whole;
-    *out = (source_array){.items = lattice_array_of(from->lattice, a)};
-    if (whole == NULL || lattice_array_of(&whole->part->lattice, a) == NULL) return DEM_OK;
-    out->gathered = malloc((size_t)lattice_count(from->lattice, a->of) * a->size + 1);
-    CHECK_MEMORY(out->gathered);
-    out->items = out->gathered;
-    return whole->ask_array(whole, k, out->gathered);
-}
-
-void dem_private_lattice_close(source_array *a)
-{
-    free(a->gathered);
-    *a = (source_array){0};
-}
-
-dem_status dem_private_lattice_pick(const lattice_source *from, size_t member, const dem_index *list, dem_index n,
-                                    void *out)
-{
-    const size_t size = lattice_arrays[find_array(member)].size;
-    source_array a;
-    const dem_status status = dem_private_lattice_open(&a, from, member);
-    for (dem_index k = 0; k < n && status == DEM_OK; k++)
-        memcpy((char *)out + (size_t)k * size, (const char *)a.items + (size_t)list[k] * size, size);
-    dem_private_lattice_close(&a);
-    return status;
+    if (lattice_array_is_corners(a)) return visit_corners(part, a, &items, take, context);
+    return gather_chunks(part->ranks, &items, a->size, lattice_array_of(&part->lattice, a), take, context);
 }

@@ -14,9 +14,9 @@
  *  \return DEM_ERROR_MEMORY, on all ranks */
 dem_status whole_of_parts_create(dem_model **out, dem_model *part, model_array_asker *ask);
 
-/** Gathers array number `array` of lattice_arrays from the parts. Collective.
- *  \param[out] whole  all items, on rank 0; not looked at elsewhere
- *  \return DEM_ERROR_MEMORY, on all ranks */
-dem_status whole_of_parts_gather(const dem_model *part, int array, void *whole);
+/** Hands array number `array` of lattice_arrays to a function of rank 0, piece by piece. Collective.
+ *  \param take  on rank 0; NULL elsewhere
+ *  \return as gather_chunks() */
+dem_status whole_of_parts_visit(const dem_model *part, int array, source_taker *take, void *context);
 
 #endif

@@ -24,6 +24,7 @@
 #include "base/status.h"
 #include "output/frame_stripes.h"
 #include "output/hdf5_attribute.h"
+#include "output/chunkwise.h"
 #include "output/vtk_grid.h"
 
 #include <stdio.h>
@@ -127,28 +128,20 @@ static dem_status create_rows(const frames *f, const hdf5_file *file)
     return write_count(f, file, 0);
 }
 
-/* The number and the body of each node, for readers that select or reorder points. */
-static dem_status write_numbers(const frames *f, const hdf5_file *file)
+static void fill_numbers(const void *context, hsize_t first, hsize_t n, void *rows)
 {
-    const size_t n = (size_t)f->n_nodes;
-    const hdf5_rows number = {GRID "PointData/id", HDF5_I64, 1, {0}, 0, f->deflate};
-    dem_index *id = malloc(n * sizeof *id);
-    CHECK_MEMORY(id);
-    for (dem_index i = 0; i < f->n_nodes; i++) id[i] = i;
-    const dem_status status = hdf5_write(file, number, n, id);
-    free(id);
-    return status;
+    dem_index *id = rows;
+    (void)context;
+    for (hsize_t k = 0; k < n; k++) id[k] = (dem_index)(first + k);
 }
 
+/* The number and the body of each node, for readers that select or reorder points. */
 static dem_status write_nodes(const frames *f, const hdf5_file *file, const lattice_source *lattice)
 {
-    const hdf5_rows rows = {GRID "PointData/body", HDF5_I32, 1, {0}, 0, f->deflate};
-    source_array body;
-    TRY(write_numbers(f, file));
-    dem_status status = dem_private_lattice_open(&body, lattice, offsetof(dem_lattice, body));
-    if (status == DEM_OK) status = hdf5_write(file, rows, (hsize_t)f->n_nodes, body.items);
-    dem_private_lattice_close(&body);
-    return status;
+    const hdf5_rows number = {GRID "PointData/id", HDF5_I64, 1, {0}, 0, f->deflate};
+    const hdf5_rows body = {GRID "PointData/body", HDF5_I32, 1, {0}, 0, f->deflate};
+    TRY(chunkwise_fill(file, number, (hsize_t)f->n_nodes, fill_numbers, NULL));
+    return chunkwise_copy(file, body, lattice, offsetof(dem_lattice, body), f->n_nodes, 1);
 }
 
 /* What the grid of triangles has from that of springs. */
@@ -174,32 +167,22 @@ static dem_status link_bodies(const hdf5_file *file)
     return DEM_OK;
 }
 
-/* \param member  offset of the cells' corners in a lattice */
-static dem_status write_grid(const frames *f, const hdf5_file *file, grid g, const lattice_source *lattice,
-                             size_t member)
-{
-    source_array corners;
-    dem_status status = dem_private_lattice_open(&corners, lattice, member);
-    g.corners = corners.items;
-    if (status == DEM_OK) status = vtk_grid_write(file, &g, f->deflate);
-    dem_private_lattice_close(&corners);
-    return status;
-}
-
 /* The triangles as cells. */
 static dem_status create_bodies(const frames *f, const hdf5_file *file, const lattice_source *lattice)
 {
-    const grid g = {FRAMES_BODIES, f->n_nodes, f->n_triangles, 3, NULL};
+    const grid g = {FRAMES_BODIES, f->n_nodes, f->n_triangles, 3};
+    const grid_corners corners = {lattice, offsetof(dem_lattice, triangles)};
     if (f->n_triangles == 0) return DEM_OK;
-    TRY(write_grid(f, file, g, lattice, offsetof(dem_lattice, triangles)));
+    TRY(vtk_grid_write(file, &g, corners, f->deflate));
     return link_bodies(file);
 }
 
 /* The grids, without their points: these move, and are an array of the frames. */
 dem_status frames_create(const frames *f, const hdf5_file *file, const lattice_source *lattice)
 {
-    const grid g = {"/VTKHDF", f->n_nodes, f->n_springs, 2, NULL};
-    TRY(write_grid(f, file, g, lattice, offsetof(dem_lattice, ends)));
+    const grid g = {"/VTKHDF", f->n_nodes, f->n_springs, 2};
+    const grid_corners corners = {lattice, offsetof(dem_lattice, ends)};
+    TRY(vtk_grid_write(file, &g, corners, f->deflate));
     TRY(create_bodies(f, file, lattice));
     TRY(write_nodes(f, file, lattice));
     TRY(create_offsets(f, file));

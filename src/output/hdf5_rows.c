@@ -119,6 +119,11 @@ static hsize_t width_of(const hdf5_rows *rows)
     return (rows->rank > 1 ? rows->tail[0] : 1) * (rows->rank > 2 ? rows->tail[1] : 1);
 }
 
+size_t hdf5_row_bytes(const hdf5_rows *rows)
+{
+    return (size_t)width_of(rows) * H5Tget_size(hdf5_memory_type(rows->kind));
+}
+
 /* Whether the rows are all of a chunk, and in memory as they are stored but for their precision. */
 static bool is_chunk(const hdf5_rows *rows, hsize_t first, hsize_t count)
 {
@@ -202,12 +207,17 @@ dem_status hdf5_copy(const hdf5_file *from, const hdf5_file *to, const hdf5_rows
     return status;
 }
 
-/* Nothing is added later, so that no chunk needs room for more. */
+/* No chunk needs room for more. */
+dem_status hdf5_create_for(const hdf5_file *file, hdf5_rows *rows, hsize_t count)
+{
+    if (rows->chunk == 0 || rows->chunk > count) rows->chunk = count;
+    return hdf5_create(file, rows);
+}
+
 dem_status hdf5_write(const hdf5_file *file, hdf5_rows rows, hsize_t count, const void *data)
 {
-    const size_t size = (size_t)width_of(&rows) * H5Tget_size(hdf5_memory_type(rows.kind));
-    if (rows.chunk == 0 || rows.chunk > count) rows.chunk = count;
-    TRY(hdf5_create(file, &rows));
+    const size_t size = hdf5_row_bytes(&rows);
+    TRY(hdf5_create_for(file, &rows, count));
     if (count == 0) return hdf5_append(file, &rows, 0, 0, data);
     for (hsize_t first = 0; first < count; first += rows.chunk) {
         const hsize_t n = count - first < rows.chunk ? count - first : rows.chunk;

@@ -29,6 +29,9 @@ typedef struct hdf5_span {
 hid_t hdf5_file_type(hdf5_kind kind);
 hid_t hdf5_memory_type(hdf5_kind kind);
 
+/** Bytes of a row in memory. */
+size_t hdf5_row_bytes(const hdf5_rows *rows);
+
 /** Makes a dataset without rows. */
 dem_status hdf5_create(const hdf5_file *file, const hdf5_rows *rows);
 
@@ -46,7 +49,11 @@ dem_status hdf5_read(const hdf5_file *file, const hdf5_rows *rows, hsize_t first
 /** Copies rows of a dataset to the end of that in another file, a chunk at a time. */
 dem_status hdf5_copy(const hdf5_file *from, const hdf5_file *to, const hdf5_rows *rows, hdf5_span span);
 
-/** Makes a dataset with `count` rows, in chunks of rows.chunk; in one where that is 0, or more. */
+/** Makes a dataset without rows, to which `count` rows are going to be appended, and none later.
+ *  \param[in,out] rows  their chunk becomes all rows where it is 0, or more */
+dem_status hdf5_create_for(const hdf5_file *file, hdf5_rows *rows, hsize_t count);
+
+/** Makes one, and appends them chunk by chunk. */
 dem_status hdf5_write(const hdf5_file *file, hdf5_rows rows, hsize_t count, const void *data);
 
 dem_status hdf5_count_rows(const hdf5_file *file, const char *name, hsize_t *count);

@@ -5,6 +5,7 @@
 #include "base/status.h"
 #include "lattice/lattice.h"
 #include "output/lattice_datasets.h"
+#include "output/chunkwise.h"
 
 #include <dem/trajectory.h>
 
@@ -53,12 +54,14 @@ dem_status dem_lattice_measure(const char *path, dem_index *n_nodes, dem_index *
 
 /* ---- writing ---- */
 
-/* An optional array that is NULL is left out. */
+static hdf5_rows rows_of(const lattice_dataset *d, int deflate)
+{
+    return (hdf5_rows){d->name, d->kind, d->width > 1 ? 2 : 1, {d->width}, LATTICE_PIECE, deflate};
+}
+
 static dem_status write_array(const hdf5_file *file, int a, int deflate, dem_index count, const void *data)
 {
-    const lattice_dataset *d = &lattice_dataset_list[a];
-    const hdf5_rows rows = {d->name, d->kind, d->width > 1 ? 2 : 1, {d->width}, LATTICE_PIECE, deflate};
-    return data != NULL || d->required ? hdf5_write(file, rows, (hsize_t)count, data) : DEM_OK;
+    return hdf5_write(file, rows_of(&lattice_dataset_list[a], deflate), (hsize_t)count, data);
 }
 
 /* A byte for each node, if one is of a rigid body. */
@@ -80,16 +83,17 @@ static dem_status write_rigid(const hdf5_file *file, const unsigned char *flags,
 static dem_status write_flags(const hdf5_file *file, const unsigned char *flags, dem_index n, int deflate)
 {
     dem_status status = DEM_ERROR_MEMORY;
-    dem_index n_contacts = 0;
+    dem_index n_contacts = 0, listed = 0;
+    for (dem_index i = 0; i < n; i++) n_contacts += (flags[i] & DEM_NODE_CONTACT) != 0;
     unsigned char *fixed = malloc((size_t)n);
-    dem_index *contacts = malloc((size_t)n * sizeof *contacts);
+    dem_index *contacts = malloc((size_t)(n_contacts + 1) * sizeof *contacts);
     if (fixed == NULL || contacts == NULL) {
         (void)status_fail(status, "out of memory");
         goto out;
     }
     for (dem_index i = 0; i < n; i++) {
         fixed[i] = (flags[i] & DEM_NODE_FIXED) != 0;
-        if (flags[i] & DEM_NODE_CONTACT) contacts[n_contacts++] = i;
+        if (flags[i] & DEM_NODE_CONTACT) contacts[listed++] = i;
     }
     status = write_array(file, LATTICE_FIXED, deflate, n, fixed);
     if (status == DEM_OK) status = write_rigid(file, flags, n, deflate, fixed);
@@ -103,14 +107,12 @@ out:
 static dem_status write_member(const hdf5_file *file, int a, const lattice_source *from, int deflate)
 {
     const lattice_dataset *d = &lattice_dataset_list[a];
-    source_array array;
-    dem_status status = dem_private_lattice_open(&array, from, d->offset);
-    if (status == DEM_OK) status = write_array(file, a, deflate, lattice_count(from->lattice, d->of), array.items);
-    dem_private_lattice_close(&array);
-    return status;
+    if (!d->required && !dem_private_lattice_has(from, d->offset)) return DEM_OK;
+    return chunkwise_copy(file, rows_of(d, deflate), from, d->offset, lattice_count(from->lattice, d->of), 1);
 }
 
-/* The arrays in the order of the table; flags last, since they become several datasets. */
+/* Optional arrays that are not there are left out. The others stand in the order of the table; flags are last, since
+ * they become several datasets. */
 dem_status lattice_file_write(const hdf5_file *file, const lattice_source *from, int deflate)
 {
     source_array flags;

@@ -257,12 +257,11 @@ static void free_outline(outline *o)
 /* After a failure *out must not be used. */
 static dem_status allocate_outline(outline *out, const dem_model *model, dem_index n_points, dem_index n_segments)
 {
-    outline o = {.model = model, .grid = {"/VTKHDF", n_points, n_segments, 2, NULL}};
+    outline o = {.model = model, .grid = {"/VTKHDF", n_points, n_segments, 2}};
     o.flat = calloc((size_t)n_points, 2 * sizeof *o.flat);
     o.points = calloc((size_t)n_points, 3 * sizeof *o.points);
     o.ends = calloc((size_t)n_segments, 2 * sizeof *o.ends);
     o.owner = calloc((size_t)n_segments, sizeof *o.owner);
-    o.grid.corners = o.ends;
     *out = o;
     if (o.flat != NULL && o.points != NULL && o.ends != NULL && o.owner != NULL) return DEM_OK;
     free_outline(&o);
@@ -342,7 +341,7 @@ static dem_status write_steps(const hdf5_file *file, const outline *o, obstacle_
 static dem_status write_outline(const hdf5_file *file, const outline *o, obstacle_file_times at, int deflate)
 {
     const hdf5_rows owner = {GRID "CellData/obstacle", HDF5_I32, 1, {0}, 0, deflate};
-    TRY(vtk_grid_write(file, &o->grid, deflate));
+    TRY(vtk_grid_write_here(file, &o->grid, o->ends, deflate));
     TRY(write_points(file, o, at, deflate));
     TRY(hdf5_write(file, owner, (hsize_t)o->grid.n_cells, o->owner));
     return at.n > 0 ? write_steps(file, o, at) : DEM_OK;

@@ -46,17 +46,31 @@ static numbered_file name_at_first(const stripes *s, dem_index number, int k)
     return (numbered_file){.segment = number, .stripe = k + 1, .n = s->n, .is_temporary = number == 0};
 }
 
+/* A hash, and the number of the array that comes next. */
+typedef struct hashing {
+    uint64_t hash;
+    int array;
+} hashing;
+
+static dem_status add_piece(void *context, dem_index first, dem_index n, const void *items)
+{
+    hashing *h = context;
+    (void)first;
+    h->hash = lattice_arrays_hash_next(h->hash, h->array, items, n);
+    return DEM_OK;
+}
+
 dem_status stripes_run(int64_t *out, const lattice_source *lattice)
 {
-    uint64_t hash = lattice_arrays_hash_counts(lattice->lattice);
-    for (int k = 0; k < LATTICE_ARRAYS; k++) {
-        source_array a;
-        const dem_status status = dem_private_lattice_open(&a, lattice, lattice_arrays[k].offset);
-        hash = lattice_arrays_hash_next(hash, lattice->lattice, k, a.items);
-        dem_private_lattice_close(&a);
-        TRY(status);
+    hashing h = {.hash = lattice_arrays_hash_counts(lattice->lattice)};
+    for (h.array = 0; h.array < LATTICE_ARRAYS; h.array++) {
+        const size_t member = lattice_arrays[h.array].offset;
+        if (dem_private_lattice_has(lattice, member))
+            TRY(dem_private_lattice_visit(lattice, member, add_piece, &h));
+        else
+            h.hash = lattice_arrays_hash_next(h.hash, h.array, NULL, 0);
     }
-    *out = (int64_t)hash;
+    *out = (int64_t)h.hash;
     return DEM_OK;
 }
 

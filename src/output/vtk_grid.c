@@ -6,9 +6,9 @@
 
 #include "base/status.h"
 #include "output/hdf5_attribute.h"
+#include "output/chunkwise.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* VTK's codes of cells. */
@@ -16,56 +16,68 @@ enum { VTK_LINE = 3, VTK_TRIANGLE = 5 };
 
 enum { NAME = 64 };
 
-/* A dataset of the grid. */
-static dem_status write_data(const hdf5_file *file, const grid *g, const char *name, hdf5_rows rows, dem_index count,
-                             const void *data)
+/* The path of a dataset of the grid, and its rows. */
+static hdf5_rows rows_of(char path[NAME], const grid *g, const char *name, hdf5_kind kind, int deflate)
 {
-    char path[NAME];
-    (void)snprintf(path, sizeof path, "%s/%s", g->group, name);
-    rows.name = path;
-    return hdf5_write(file, rows, (hsize_t)count, data);
+    (void)snprintf(path, NAME, "%s/%s", g->group, name);
+    return (hdf5_rows){path, kind, 1, {0}, 0, deflate};
 }
 
-static dem_status write_numbers(const hdf5_file *file, const grid *g, const char *name, int deflate, dem_index count,
-                                const dem_index *data)
+static dem_status write_count(const hdf5_file *file, const grid *g, const char *name, dem_index count)
 {
-    return write_data(file, g, name, (hdf5_rows){NULL, HDF5_I64, 1, {0}, 0, deflate}, count, data);
+    char path[NAME];
+    return hdf5_write(file, rows_of(path, g, name, HDF5_I64, 0), 1, &count);
 }
 
 /* Cell k has the entries offsets[k] to offsets[k + 1] - 1 of the connectivity. */
-static dem_status write_offsets(const hdf5_file *file, const grid *g, int deflate)
+static void fill_offsets(const void *context, hsize_t first, hsize_t n, void *rows)
 {
-    dem_index *offsets = malloc((size_t)(g->n_cells + 1) * sizeof *offsets);
-    CHECK_MEMORY(offsets);
-    for (dem_index k = 0; k <= g->n_cells; k++) offsets[k] = g->n_corners * k;
-    const dem_status status = write_numbers(file, g, "Offsets", deflate, g->n_cells + 1, offsets);
-    free(offsets);
-    return status;
+    const grid *g = context;
+    dem_index *offset = rows;
+    for (hsize_t k = 0; k < n; k++) offset[k] = g->n_corners * (dem_index)(first + k);
 }
 
 /* One code for each cell. */
-static dem_status write_types(const hdf5_file *file, const grid *g, int deflate)
+static void fill_types(const void *context, hsize_t first, hsize_t n, void *rows)
 {
-    unsigned char *types = malloc((size_t)g->n_cells + 1);
-    CHECK_MEMORY(types);
-    memset(types, g->n_corners == 2 ? VTK_LINE : VTK_TRIANGLE, (size_t)g->n_cells);
-    const dem_status status =
-        write_data(file, g, "Types", (hdf5_rows){NULL, HDF5_U8, 1, {0}, 0, deflate}, g->n_cells, types);
-    free(types);
-    return status;
+    const grid *g = context;
+    (void)first;
+    memset(rows, g->n_corners == 2 ? VTK_LINE : VTK_TRIANGLE, (size_t)n);
 }
 
 /* The grid is one part, so each of the three counts is an array of one number. */
-dem_status vtk_grid_write(const hdf5_file *file, const grid *g, int deflate)
+static dem_status write_head(const hdf5_file *file, const grid *g)
 {
     static const dem_index version[2] = {2, 0};
-    const dem_index n_corners = g->n_corners * g->n_cells;
     TRY(hdf5_write_attribute(file, g->group, "Version", HDF5_I64, 2, version));
     TRY(hdf5_write_attribute_text(file, g->group, "Type", "UnstructuredGrid"));
-    TRY(write_numbers(file, g, "NumberOfPoints", 0, 1, &g->n_points));
-    TRY(write_numbers(file, g, "NumberOfCells", 0, 1, &g->n_cells));
-    TRY(write_numbers(file, g, "NumberOfConnectivityIds", 0, 1, &n_corners));
-    TRY(write_numbers(file, g, "Connectivity", deflate, n_corners, g->corners));
-    TRY(write_offsets(file, g, deflate));
-    return write_types(file, g, deflate);
+    TRY(write_count(file, g, "NumberOfPoints", g->n_points));
+    TRY(write_count(file, g, "NumberOfCells", g->n_cells));
+    return write_count(file, g, "NumberOfConnectivityIds", g->n_corners * g->n_cells);
+}
+
+static dem_status write_cells(const hdf5_file *file, const grid *g, int deflate)
+{
+    char path[NAME];
+    const hsize_t n = (hsize_t)g->n_cells;
+    TRY(chunkwise_fill(file, rows_of(path, g, "Offsets", HDF5_I64, deflate), n + 1, fill_offsets, g));
+    return chunkwise_fill(file, rows_of(path, g, "Types", HDF5_U8, deflate), n, fill_types, g);
+}
+
+dem_status vtk_grid_write(const hdf5_file *file, const grid *g, grid_corners corners, int deflate)
+{
+    char path[NAME];
+    const hdf5_rows rows = rows_of(path, g, "Connectivity", HDF5_I64, deflate);
+    TRY(write_head(file, g));
+    TRY(chunkwise_copy(file, rows, corners.lattice, corners.member, g->n_cells, g->n_corners));
+    return write_cells(file, g, deflate);
+}
+
+dem_status vtk_grid_write_here(const hdf5_file *file, const grid *g, const dem_index *corners, int deflate)
+{
+    char path[NAME];
+    const hdf5_rows rows = rows_of(path, g, "Connectivity", HDF5_I64, deflate);
+    TRY(write_head(file, g));
+    TRY(hdf5_write(file, rows, (hsize_t)(g->n_corners * g->n_cells), corners));
+    return write_cells(file, g, deflate);
 }

@@ -238,7 +238,7 @@ static void take_part(led_run *l, const rank_call *o)
         make_slabs(l);
         break;
     case RANK_CALL_ARRAY:
-        (void)whole_of_parts_gather(l->model, (int)o->number, NULL);
+        (void)whole_of_parts_visit(l->model, (int)o->number, NULL, NULL);
         break;
     case RANK_CALL_OBSERVE:
         (void)observe(l, o);
@@ -515,11 +515,11 @@ void dem_private_shares(const dem_simulation *whole, double *least, double *most
     memcpy(most, s.most, sizeof s.most);
 }
 
-/* Rank 0 has the others gather it, too. */
-static dem_status ask_array(const dem_model *whole, int array, void *items)
+/* Rank 0 has the others take part in it. */
+static dem_status ask_array(const dem_model *whole, int array, source_taker *take, void *context)
 {
     (void)rank_call_send(whole->part->ranks, (rank_call){.kind = RANK_CALL_ARRAY, .number = array});
-    return whole_of_parts_gather(whole->part, array, items);
+    return whole_of_parts_visit(whole->part, array, take, context);
 }
 
 dem_status dem_private_lead_slabs(dem_model **out, const ranks *r, const slab_maker *maker, const slab_recipe *recipe)

@@ -368,20 +368,11 @@ dem_status dem_simulation_fragments(const dem_simulation *s, dem_index *n_fragme
     return DEM_OK;
 }
 
-/* Of a whole of which ranks have the arrays two are gathered: its elements are all whole. */
 static dem_status measure_fragments(const dem_simulation *s, const element_state *elements, dem_fracture *out)
 {
     const lattice_source from = dem_private_lattice_source(s->model);
-    dem_lattice l = s->model->lattice;
-    source_array ends, mass = {0};
-    dem_status status = dem_private_lattice_open(&ends, &from, offsetof(dem_lattice, ends));
-    if (status == DEM_OK) status = dem_private_lattice_open(&mass, &from, offsetof(dem_lattice, mass));
-    l.ends = (dem_index *)(uintptr_t)ends.items;
-    l.mass = (double *)(uintptr_t)mass.items;
-    if (status == DEM_OK) status = fragments_measure(&l, elements, out);
-    dem_private_lattice_close(&ends);
-    dem_private_lattice_close(&mass);
-    return status;
+    if (from.whole == NULL) return fragments_measure(&s->model->lattice, elements, out);
+    return fragments_measure_source(&from, s->model->mass, out);
 }
 
 dem_status dem_simulation_fracture(const dem_simulation *s, dem_fracture *out)

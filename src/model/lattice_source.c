@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Where the arrays of a model's lattice are is known to models, so that this is not beside lattice/lattice_source.h. */
+#include "lattice/lattice_source.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "lattice/lattice_arrays.h"
+#include "model/model.h"
+
+lattice_source dem_private_lattice_source(const dem_model *model)
+{
+    return (lattice_source){.lattice = &model->lattice, .whole = model->part != NULL ? model : NULL};
+}
+
+/* An array of a source. */
+typedef struct view {
+    int number; /* in lattice_arrays */
+    size_t size;
+    dem_index n;
+    const char *items; /* NULL: ranks have them, or nobody */
+    bool is_away;      /* ranks have them */
+} view;
+
+static view view_of(const lattice_source *from, size_t member)
+{
+    int k = 0;
+    while (lattice_arrays[k].offset != member) k++;
+    const lattice_array *a = &lattice_arrays[k];
+    const dem_model *whole = from->whole;
+    return (view){k, a->size, lattice_count(from->lattice, a->of), lattice_array_of(from->lattice, a),
+                  whole != NULL && lattice_array_of(&whole->part->lattice, a) != NULL};
+}
+
+bool dem_private_lattice_has(const lattice_source *from, size_t member)
+{
+    const view v = view_of(from, member);
+    return v.is_away || v.items != NULL;
+}
+
+dem_status dem_private_lattice_visit(const lattice_source *from, size_t member, source_taker *take, void *context)
+{
+    const view v = view_of(from, member);
+    if (v.is_away) return from->whole->ask_array(from->whole, v.number, take, context);
+    for (dem_index first = 0; first < v.n && v.items != NULL; first += LATTICE_SOURCE_CHUNK) {
+        const dem_index left = v.n - first, n = left < LATTICE_SOURCE_CHUNK ? left : LATTICE_SOURCE_CHUNK;
+        TRY(take(context, first, n, v.items + (size_t)first * v.size));
+    }
+    return DEM_OK;
+}
+
+/* What is wanted of an array. */
+typedef struct wanted {
+    size_t size;
+    const dem_index *list; /* [n] NULL: all items */
+    dem_index n;
+    char *out;
+} wanted;
+
+static dem_status take_all(void *context, dem_index first, dem_index n, const void *items)
+{
+    const wanted *w = context;
+    memcpy(w->out + (size_t)first * w->size, items, (size_t)n * w->size);
+    return DEM_OK;
+}
+
+static dem_status take_listed(void *context, dem_index first, dem_index n, const void *items)
+{
+    const wanted *w = context;
+    for (dem_index k = 0; k < w->n; k++) {
+        const dem_index at = w->list[k] - first;
+        if (at >= 0 && at < n)
+            memcpy(w->out + (size_t)k * w->size, (const char *)items + (size_t)at * w->size, w->size);
+    }
+    return DEM_OK;
+}
+
+dem_status dem_private_lattice_open(source_array *out, const lattice_source *from, size_t member)
+{
+    const view v = view_of(from, member);
+    *out = (source_array){.items = v.items};
+    if (!v.is_away) return DEM_OK;
+    out->gathered = malloc((size_t)v.n * v.size + 1);
+    CHECK_MEMORY(out->gathered);
+    out->items = out->gathered;
+    wanted all = {.size = v.size, .out = out->gathered};
+    return dem_private_lattice_visit(from, member, take_all, &all);
+}
+
+void dem_private_lattice_close(source_array *a)
+{
+    free(a->gathered);
+    *a = (source_array){0};
+}
+
+dem_status dem_private_lattice_pick(const lattice_source *from, size_t member, const dem_index *list, dem_index n,
+                                    void *out)
+{
+    const view v = view_of(from, member);
+    wanted listed = {.size = v.size, .list = list, .n = n, .out = out};
+    if (v.is_away) return dem_private_lattice_visit(from, member, take_listed, &listed);
+    for (dem_index k = 0; k < n; k++)
+        memcpy((char *)out + (size_t)k * v.size, v.items + (size_t)list[k] * v.size, v.size);
+    return DEM_OK;
+}
