@@ -327,15 +327,23 @@ static void on_call(int signal_number, siginfo_t *info, void *context)
 
 /* ---- who ends the process ---- */
 
+/* Who has called what is no code is not found by backtrace(), but the address to return to is on the stack. */
+static int list_frames(void **frames, int most, const ucontext_t *context)
+{
+    const int n = backtrace(frames, most - 1);
+    if (context == NULL) return n;
+    frames[n] = *(void **)context->uc_mcontext.gregs[REG_RSP];
+    return n + 1;
+}
+
 /* Of the innermost frame beyond the C library and this file. */
 static void name_culprit(int signal_number, siginfo_t *info, void *context)
 {
     void *frames[64];
     char line[256] = "";
     Dl_info where = {0};
-    const int n = backtrace(frames, 64);
+    const int n = list_frames(frames, 64, context);
     (void)info;
-    (void)context;
     for (int k = 0; k < n; k++) {
         if (dladdr(frames[k], &where) == 0 || where.dli_fname == NULL) continue;
         const char *name = strrchr(where.dli_fname, '/');
