@@ -372,14 +372,21 @@ static dem_status face(builder *b)
     return status;
 }
 
-static dem_status put(builder *b)
+dem_status body_put(dem_lattice *lattice, const schema_instance *body, const double *centre)
 {
-    const double *position = reals_of(b->body, "position"), *velocity = reals_of(b->body, "velocity");
+    const double spin = schema_real(body, "spin");
+    dem_lattice_move(lattice, angle_degree * schema_real(body, "angle"), reals_of(body, "position"));
+    const dem_status status = dem_lattice_launch(lattice, reals_of(body, "velocity"));
+    if (status != DEM_OK) return status;
+    return centre != NULL ? dem_lattice_spin_about(lattice, spin, centre) : dem_lattice_spin(lattice, spin);
+}
+
+/* `centre` as body_put() has it. */
+static dem_status put(builder *b, const double *centre)
+{
     b->start.angle = angle_degree * schema_real(b->body, "angle");
-    for (int c = 0; c < 2; c++) b->start.offset[c] = position[c];
-    dem_lattice_move(&b->lattice, b->start.angle, position);
-    dem_status status = report(b, dem_lattice_launch(&b->lattice, velocity), "velocity");
-    if (status == DEM_OK) status = report(b, dem_lattice_spin(&b->lattice, schema_real(b->body, "spin")), "spin");
+    for (int c = 0; c < 2; c++) b->start.offset[c] = reals_of(b->body, "position")[c];
+    dem_status status = report(b, body_put(&b->lattice, b->body, centre), "velocity");
     if (status == DEM_OK) status = check_place(b, "position");
     return status == DEM_OK ? face(b) : status;
 }
@@ -525,7 +532,7 @@ bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const bo
     builder b = begin(scene, k, errors);
     dem_status status = has_shape(b.body, "file") ? read_file(&b) : make_mesh(&b);
     if (status == DEM_OK) status = stiffen(&b);
-    if (status == DEM_OK) status = put(&b);
+    if (status == DEM_OK) status = put(&b, NULL);
     if (status == DEM_OK && copies_count(b.body) > 1) status = put_copy(&b, 0);
     for (dem_index i = 0; status == DEM_OK && i < b.lattice.n_nodes; i++) b.facts.mass += b.lattice.mass[i];
     if (status != DEM_OK) dem_lattice_free(&b.lattice);
@@ -537,7 +544,8 @@ bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const bo
     return status != DEM_ERROR_MEMORY;
 }
 
-bool body_place_strip(dem_lattice *strip, body_start *start, const body_scene *scene, size_t k, namelist_errors *errors)
+bool body_place_strip(dem_lattice *strip, body_start *start, const body_scene *scene, size_t k, const double centre[2],
+                      namelist_errors *errors)
 {
     builder b = begin(scene, k, errors);
     const dem_material material = body_geometry_material(scene->groups, k);
@@ -546,7 +554,7 @@ bool body_place_strip(dem_lattice *strip, body_start *start, const body_scene *s
     b.facts.geometry.spacing = schema_real(b.body, "spacing");
     dem_status status = check_scales(&b, &material);
     if (status == DEM_OK) status = report(&b, dem_lattice_assemble(&b.lattice, &material), "material");
-    if (status == DEM_OK) status = put(&b);
+    if (status == DEM_OK) status = put(&b, centre);
     *strip = b.lattice;
     *start = b.start;
     return status != DEM_ERROR_MEMORY;

@@ -69,9 +69,15 @@ bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const bo
 bool body_copy(dem_lattice *lattice, const body_facts *facts, body_start *start, const body_scene *scene, size_t k,
                namelist_errors *errors);
 
+/* Puts a body, or a slab of it, where its keys say, without regard to its clearance, in the motion that it starts with.
+ * \param centre  of its mass, there, m, about which it spins; NULL: the lattice has all of the body
+ * \return as dem_lattice_launch() and dem_lattice_spin() */
+dem_status body_put(dem_lattice *lattice, const schema_instance *body, const double *centre);
+
 /* Puts the strip of a body, as a triangulation, in the place that body k has by its keys, with springs of its material.
- * A fault is appended to `errors`. Returns false only when memory runs out. */
-bool body_place_strip(dem_lattice *strip, body_start *start, const body_scene *scene, size_t k,
+ * A fault is appended to `errors`. Returns false only when memory runs out.
+ * \param centre  of the mass of the body, m, as body_put() has it */
+bool body_place_strip(dem_lattice *strip, body_start *start, const body_scene *scene, size_t k, const double centre[2],
                       namelist_errors *errors);
 
 /* Reports body k if it starts deeper in an obstacle, or an obstacle in it, than `penetration_tolerance`, m. Returns

@@ -20,8 +20,7 @@ static bool is_plain(const schema_instance *body)
     for (size_t k = 0; k < sizeof of_files / sizeof *of_files; k++)
         if (schema_is(body, "shape", of_files[k])) return false;
     return schema_is(body, "lattice", "triangular") && schema_is(body, "outline", "lattice") &&
-           schema_real(body, "jitter") == 0.0 && schema_real(body, "spin") == 0.0 && copies_count(body) == 1 &&
-           !rigid_keys_ask(body);
+           schema_real(body, "jitter") == 0.0 && copies_count(body) == 1 && !rigid_keys_ask(body);
 }
 
 static bool is_elastic(const schema_deck *groups)
@@ -57,14 +56,33 @@ static dem_status assemble(dem_slab *slab, const schema_deck *groups)
     return dem_lattice_assemble(&slab->lattice, &material);
 }
 
-static dem_status launch(dem_slab *slab, const schema_deck *groups)
+/* Assembled, where the body is to be but for its clearance, as it moves there. */
+static dem_status put(dem_slab *slab, const schema_deck *groups, const double centre[2])
 {
-    return dem_lattice_launch(&slab->lattice, schema_reals(schema_get(groups, "body", 0), "velocity"));
+    const dem_status status = assemble(slab, groups);
+    return status == DEM_OK ? body_put(&slab->lattice, schema_get(groups, "body", 0), centre) : status;
 }
 
-static void add_mass(body_facts *facts, const dem_slab *slab)
+/* ---- looking ---- */
+
+typedef struct looker {
+    deck_slabs_found *found;
+    slab_survey survey;
+    const schema_deck *groups;
+    namelist_errors *errors;
+    bool spins;
+    double moment[2]; /* kg m, sum of masses times places */
+    double centre[2]; /* of mass, m, once all slabs have been seen */
+} looker;
+
+/* Sums of the whole, in the order of its nodes: of them dem_lattice_spin() makes the centre. */
+static void add_mass(looker *k, const dem_slab *slab)
 {
-    for (dem_index i = slab->first_own; i < slab->first_own + slab->n_own; i++) facts->mass += slab->lattice.mass[i];
+    const dem_lattice *l = &slab->lattice;
+    for (dem_index i = slab->first_own; i < slab->first_own + slab->n_own; i++) {
+        for (int c = 0; c < 2; c++) k->moment[c] += l->mass[i] * l->x[2 * i + c];
+        k->found->body.mass += l->mass[i];
+    }
 }
 
 static dem_status note_angle(body_facts *facts, const dem_slab *slab)
@@ -75,39 +93,58 @@ static dem_status note_angle(body_facts *facts, const dem_slab *slab)
     return status;
 }
 
-static dem_status add_slab(deck_slabs_found *f, slab_survey *s, dem_slab *slab, const schema_deck *groups)
+static dem_status add_facts(looker *k, const dem_slab *slab)
 {
-    if (!slab_survey_add_strip(s, slab)) return DEM_ERROR_MEMORY;
-    dem_status status = note_angle(&f->body, slab);
-    if (status == DEM_OK) status = assemble(slab, groups);
-    if (status == DEM_OK && !slab_survey_add_parts(s, slab)) return DEM_ERROR_MEMORY;
-    if (status == DEM_OK) status = launch(slab, groups);
-    if (status != DEM_OK) return status;
-    add_mass(&f->body, slab);
-    return lattice_facts_add(&f->lattice, slab) ? DEM_OK : DEM_ERROR_MEMORY;
+    return lattice_facts_add(&k->found->lattice, slab) ? DEM_OK : DEM_ERROR_MEMORY;
 }
 
-static dem_status look_at_all(deck_slabs_found *f, slab_survey *s, dem_index n, const schema_deck *groups,
-                              namelist_errors *errors)
+static dem_status survey(looker *k, dem_slab *slab)
+{
+    if (!slab_survey_add_strip(&k->survey, slab)) return DEM_ERROR_MEMORY;
+    dem_status status = note_angle(&k->found->body, slab);
+    if (status == DEM_OK) status = put(slab, k->groups, k->centre);
+    if (status == DEM_OK && !slab_survey_add_parts(&k->survey, slab)) return DEM_ERROR_MEMORY;
+    if (status == DEM_OK) add_mass(k, slab);
+    return status == DEM_OK && !k->spins ? add_facts(k, slab) : status;
+}
+
+/* Of a body that spins, whose centre of mass is known by now. */
+static dem_status look_at_motion(looker *k, dem_slab *slab)
+{
+    const dem_status status = put(slab, k->groups, k->centre);
+    return status == DEM_OK ? add_facts(k, slab) : status;
+}
+
+static dem_status for_each(looker *k, dem_index n, dem_status (*look)(looker *k, dem_slab *slab))
 {
     dem_status status = DEM_OK;
-    for (dem_index k = 0; k < n && status == DEM_OK; k++) {
+    for (dem_index part = 0; part < n && status == DEM_OK; part++) {
         dem_slab slab;
-        status = body_geometry_slab(&slab, &f->body.geometry, groups, 0, (body_part){k, n}, errors);
-        if (status == DEM_OK) status = add_slab(f, s, &slab, groups);
+        status = body_geometry_slab(&slab, &k->found->body.geometry, k->groups, 0, (body_part){part, n}, k->errors);
+        if (status == DEM_OK) status = look(k, &slab);
         dem_slab_free(&slab);
     }
-    return status == DEM_OK && !slab_survey_is_one(s) ? DEM_ERROR_MODEL : status;
+    return status;
 }
 
-static dem_status place(deck_slabs_found *f, slab_survey *s, const body_scene *scene, namelist_errors *errors)
+static dem_status look_at_all(looker *k, dem_index n)
 {
-    if (!slab_survey_take_strip(&f->strip, s)) return DEM_ERROR_MEMORY;
-    if (!body_place_strip(&f->strip, &f->start, scene, 0, errors)) return DEM_ERROR_MEMORY;
+    const dem_status status = for_each(k, n, survey);
+    if (status != DEM_OK) return status;
+    if (!slab_survey_is_one(&k->survey)) return DEM_ERROR_MODEL;
+    for (int c = 0; c < 2; c++) k->centre[c] = 1.0 / k->found->body.mass * k->moment[c];
+    return k->spins ? for_each(k, n, look_at_motion) : DEM_OK;
+}
+
+static dem_status place(looker *k, const body_scene *scene)
+{
+    deck_slabs_found *f = k->found;
+    if (!slab_survey_take_strip(&f->strip, &k->survey)) return DEM_ERROR_MEMORY;
+    if (!body_place_strip(&f->strip, &f->start, scene, 0, k->centre, k->errors)) return DEM_ERROR_MEMORY;
     lattice_facts_find_box(&f->lattice, &f->strip);
     f->body.true_mass = f->body.geometry.mass;
     f->body.plane = body_geometry_material(scene->groups, 0).plane;
-    return errors->n == 0 ? DEM_OK : DEM_ERROR_MODEL;
+    return k->errors->n == 0 ? DEM_OK : DEM_ERROR_MODEL;
 }
 
 static void forget(deck_slabs_found *f)
@@ -119,14 +156,18 @@ static void forget(deck_slabs_found *f)
 
 bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const body_scene *scene)
 {
-    slab_survey s = {0};
     namelist_errors errors = {0};
+    looker k = {.found = out,
+                .groups = scene->groups,
+                .errors = &errors,
+                .spins = schema_real(schema_get(scene->groups, "body", 0), "spin") != 0.0};
     *out = (deck_slabs_found){.strip = dem_lattice_empty(), .body.least_angle = (double)INFINITY};
-    dem_status status = look_at_all(out, &s, slabs->n, scene->groups, &errors);
-    if (status == DEM_OK) status = place(out, &s, scene, &errors);
+    dem_status status = look_at_all(&k, slabs->n);
+    if (status == DEM_OK) status = place(&k, scene);
     slabs->are_made = status == DEM_OK;
-    memcpy(slabs->shift, out->start.shift, sizeof slabs->shift);
-    slab_survey_free(&s);
+    memcpy(slabs->place.centre, k.centre, sizeof k.centre);
+    memcpy(slabs->place.shift, out->start.shift, sizeof out->start.shift);
+    slab_survey_free(&k.survey);
     namelist_errors_free(&errors);
     if (status != DEM_OK) forget(out);
     return status != DEM_ERROR_MEMORY;
@@ -136,7 +177,7 @@ bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const body_scene 
 
 /* A text follows. All ranks are the same program on machines of one kind. */
 typedef struct recipe {
-    double shift[2];
+    slab_place place;
 } recipe;
 
 void *deck_slabs_recipe(size_t *size, const deck_slabs *slabs, const char *echo)
@@ -144,7 +185,7 @@ void *deck_slabs_recipe(size_t *size, const deck_slabs *slabs, const char *echo)
     const size_t length = strlen(echo);
     recipe *r = malloc(sizeof *r + length + 1);
     if (r == NULL) return NULL;
-    memcpy(r->shift, slabs->shift, sizeof r->shift);
+    r->place = slabs->place;
     memcpy(r + 1, echo, length + 1);
     *size = sizeof *r + length + 1;
     return r;
@@ -154,14 +195,10 @@ void *deck_slabs_recipe(size_t *size, const deck_slabs *slabs, const char *echo)
 static dem_status make(dem_slab *out, const recipe *r, const schema_deck *groups, body_part part,
                        namelist_errors *errors)
 {
-    const schema_instance *body = schema_get(groups, "body", 0);
     body_geometry ignored;
     dem_status status = body_geometry_slab(out, &ignored, groups, 0, part, errors);
-    if (status == DEM_OK) status = assemble(out, groups);
-    if (status != DEM_OK) return status;
-    dem_lattice_move(&out->lattice, angle_degree * schema_real(body, "angle"), schema_reals(body, "position"));
-    status = launch(out, groups);
-    if (schema_given(body, "clearance")) dem_lattice_move(&out->lattice, 0.0, r->shift);
+    if (status == DEM_OK) status = put(out, groups, r->place.centre);
+    if (schema_given(schema_get(groups, "body", 0), "clearance")) dem_lattice_move(&out->lattice, 0.0, r->place.shift);
     return status;
 }
 

@@ -8,13 +8,19 @@
 #include "lattice_facts.h"
 
 /* Whether the keys ask for nothing that takes the whole: a single elastic body of a triangular lattice with stepped
- * edges, without cracks, inclusions, jitter, spin, loads, probes and rest. */
+ * edges, without cracks, inclusions, jitter, loads, probes and rest. */
 bool deck_slabs_suit(const schema_deck *groups);
 
+/* What makes of a slab, besides the keys, what it is in the whole. */
+typedef struct slab_place {
+    double centre[2]; /* m, of the mass of the body where its keys put it, about which it spins */
+    double shift[2];  /* m, of the body to its clearance */
+} slab_place;
+
 typedef struct deck_slabs {
-    dem_index n;     /* slabs in which the body is looked at, if the deck suits; 0: it is built as a whole */
-    bool are_made;   /* its lattice is made in slabs, and the deck has none */
-    double shift[2]; /* m, of the body to its clearance */
+    dem_index n;   /* slabs in which the body is looked at, if the deck suits; 0: it is built as a whole */
+    bool are_made; /* its lattice is made in slabs, and the deck has none */
+    slab_place place;
 } deck_slabs;
 
 /* What would be found of the whole. */

@@ -23,13 +23,13 @@ TEST(large_bodies_that_suit_are_made_by_several_ranks)
     CLEANUP(deck_free)
     deck d = deck_text_good(RUN "&body shape = 'disc', radius = 0.05, spacing = 1e-2, outline = 'lattice' /\n");
     CLEANUP(deck_free)
-    deck spins = deck_text_good(RUN "&body shape = 'disc', radius = 0.05, spacing = 1e-2, "
-                                    "outline = 'lattice', spin = 3 /\n");
+    deck smooth = deck_text_good(RUN "&body shape = 'disc', radius = 0.05, spacing = 1e-2, "
+                                     "outline = 'smooth' /\n");
     assert_int_equal(slabs_for(&d, 4, 1000.0), 4);
     assert_int_equal(slabs_for(&d, 4, 999.0), 0);
     assert_int_equal(slabs_for(&d, 1, 1e6), 0);
     assert_int_equal(slabs_for(&d, 0, 1e6), 0);
-    assert_int_equal(slabs_for(&spins, 4, 1e6), 0);
+    assert_int_equal(slabs_for(&smooth, 4, 1e6), 0);
 }
 
 /* 370 bytes for each node of the whole besides a share, but no more than a process alone. */
