@@ -441,12 +441,14 @@ static dem_status crack(former *f)
 
 /* ---- all of it ---- */
 
-static dem_status jitter(former *f)
+/* \param slab  NULL: all of the body is in f->lattice */
+static dem_status jitter(former *f, dem_slab *slab)
 {
-    const double share = schema_real(f->body, "jitter");
-    if (share == 0.0) return DEM_OK;
+    const double radius = schema_real(f->body, "jitter") * f->geometry.spacing;
+    const uint64_t seed = (uint64_t)schema_real(f->body, "seed");
+    if (radius == 0.0) return DEM_OK;
     const dem_status status =
-        dem_lattice_jitter(&f->lattice, share * f->geometry.spacing, (uint64_t)schema_real(f->body, "seed"));
+        slab != NULL ? dem_slab_jitter(slab, radius, seed) : dem_lattice_jitter(&f->lattice, radius, seed);
     if (status == DEM_ERROR_MODEL)
         namelist_errors_add(f->errors, schema_place(f->body, "jitter"), "body %zu: %s", f->number,
                             dem_status_message());
@@ -481,6 +483,7 @@ dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const schema_d
     f.shape.numbered = false;
     if (status == DEM_OK) status = report(&f, dem_slab_shape(slab, &f.shape, part.number, part.n), f.body->place, "");
     if (status == DEM_OK) status = weigh(&f);
+    if (status == DEM_OK) status = jitter(&f, slab);
     if (status != DEM_OK) dem_slab_free(slab);
     former_free(&f);
     *out = f.geometry;
@@ -500,7 +503,7 @@ dem_status body_geometry_triangulate(dem_lattice *lattice, body_geometry *out, c
     }
     if (status == DEM_OK) status = weigh(&f);
     if (status == DEM_OK && count_own(&f, "crack") > 0) status = crack(&f);
-    if (status == DEM_OK) status = jitter(&f);
+    if (status == DEM_OK) status = jitter(&f, NULL);
     if (status != DEM_OK) dem_lattice_free(&f.lattice);
     former_free(&f);
     *lattice = f.lattice;

@@ -36,7 +36,7 @@ typedef struct body_part {
 } body_part;
 
 /* The same as body_geometry_triangulate() of a slab of body k, which is neither a mesh nor an image, has a stepped edge
- * and no cracks, inclusions and jitter. Free with dem_slab_free(). */
+ * and no cracks and inclusions. Free with dem_slab_free(). */
 dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const schema_deck *groups, size_t k, body_part part,
                               namelist_errors *errors);
 

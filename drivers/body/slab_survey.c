@@ -3,6 +3,7 @@
  * there has all of its triangles in the strip, so that strip and body have the same sides between such nodes. */
 #include "slab_survey.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,17 +28,49 @@ static dem_index number_of(const dem_slab *slab, dem_index i)
 
 /* ---- the strip ---- */
 
+static slab_corner corner_of(const dem_slab *slab, dem_index i, const dem_index *rims)
+{
+    const double *x = slab->lattice.x + 2 * i;
+    return (slab_corner){.number = number_of(slab, i), .x = {x[0], x[1]}, .flags = rims[i] > 0 ? DEM_NODE_CONTACT : 0};
+}
+
+static bool append_corners(slab_survey *s, const slab_corner corners[3])
+{
+    if (!grow_array((void **)&s->corners, &s->corner_room, s->n_corners + 3, sizeof *s->corners)) return false;
+    memcpy(s->corners + s->n_corners, corners, 3 * sizeof *corners);
+    s->n_corners += 3;
+    return true;
+}
+
+static double shortest_side(const slab_corner corners[3])
+{
+    double least = (double)INFINITY;
+    for (int c = 0; c < 3; c++) {
+        const double *a = corners[c].x, *b = corners[(c + 1) % 3].x, x = b[0] - a[0], y = b[1] - a[1];
+        least = fmin(least, sqrt(x * x + y * y));
+    }
+    return least;
+}
+
+static void note_inner(slab_survey *s, const slab_corner corners[3])
+{
+    const double side = shortest_side(corners);
+    if (s->has_inner && side >= s->shortest) return;
+    s->has_inner = true;
+    s->shortest = side;
+    memcpy(s->inner, corners, sizeof s->inner);
+}
+
 static bool add_triangle(slab_survey *s, const dem_slab *slab, const dem_index *corner, const dem_index *rims)
 {
-    const dem_lattice *l = &slab->lattice;
-    if (rims[corner[0]] == 0 && rims[corner[1]] == 0 && rims[corner[2]] == 0) return true;
-    if (!grow_array((void **)&s->corners, &s->corner_room, s->n_corners + 3, sizeof *s->corners)) return false;
+    slab_corner corners[3];
+    unsigned flags = 0;
     for (int c = 0; c < 3; c++) {
-        const dem_index i = corner[c];
-        s->corners[s->n_corners++] = (slab_corner){.number = number_of(slab, i),
-                                                   .x = {l->x[2 * i], l->x[2 * i + 1]},
-                                                   .flags = rims[i] > 0 ? DEM_NODE_CONTACT : 0};
+        corners[c] = corner_of(slab, corner[c], rims);
+        flags |= corners[c].flags;
     }
+    if (flags != 0) return append_corners(s, corners);
+    note_inner(s, corners);
     return true;
 }
 
@@ -117,8 +150,10 @@ static bool fill_strip(dem_lattice *out, const slab_survey *s, slab_corner *node
 
 bool slab_survey_take_strip(dem_lattice *out, slab_survey *s)
 {
-    slab_corner *nodes = calloc((size_t)s->n_corners + 1, sizeof *nodes);
     *out = dem_lattice_empty();
+    if (s->has_inner && !append_corners(s, s->inner)) return false;
+    s->has_inner = false;
+    slab_corner *nodes = calloc((size_t)s->n_corners + 1, sizeof *nodes);
     const bool good = nodes != NULL && fill_strip(out, s, nodes);
     free(nodes);
     return good;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What is found of a body slab by slab, in their order, so that nobody has to have all of it: whether it hangs
- * together, and its boundary strip, the triangles that have a node on the boundary. Only these meet obstacles. */
+ * together, and its boundary strip, the triangles that have a node on the boundary. Only these meet obstacles. The
+ * triangle with the shortest side of all is there, too, as tolerances go by that side. */
 #ifndef DEM_SLAB_SURVEY_H
 #define DEM_SLAB_SURVEY_H
 
@@ -19,6 +20,9 @@ typedef struct slab_survey {
     dem_index next_triangle; /* of the whole, behind those that have been looked at */
     dem_index n_corners, corner_room;
     slab_corner *corners; /* [n_corners] of the triangles of the strip, three each */
+    bool has_inner;       /* there are triangles inside of the strip, */
+    double shortest;      /* m, of which this is the shortest side, */
+    slab_corner inner[3]; /* and this the triangle that has it */
     bool has_hinge;       /* triangles meet in a node that share no edge */
     dem_index n_parts, part_room;
     dem_index *parent; /* [n_parts] of parts of slabs, which of them are one (base/union_find.h) */
@@ -35,8 +39,8 @@ bool slab_survey_add_parts(slab_survey *s, const dem_slab *slab);
 /* Whether the body is in one part, all of whose triangles hang together by edges. */
 bool slab_survey_is_one(const slab_survey *s);
 
-/* The strip as a triangulation, whose nodes on the boundary of the body may touch, and no others. False when memory
- * runs out; *out is then empty. */
+/* The strip, with the triangle that has the shortest side, as a triangulation, whose nodes on the boundary of the body
+ * may touch, and no others. False when memory runs out; *out is then empty. */
 bool slab_survey_take_strip(dem_lattice *out, slab_survey *s);
 
 void slab_survey_free(slab_survey *s);

@@ -20,7 +20,7 @@ static bool is_plain(const schema_instance *body)
     for (size_t k = 0; k < sizeof of_files / sizeof *of_files; k++)
         if (schema_is(body, "shape", of_files[k])) return false;
     return schema_is(body, "lattice", "triangular") && schema_is(body, "outline", "lattice") &&
-           schema_real(body, "jitter") == 0.0 && copies_count(body) == 1 && !rigid_keys_ask(body);
+           copies_count(body) == 1 && !rigid_keys_ask(body);
 }
 
 static bool is_elastic(const schema_deck *groups)

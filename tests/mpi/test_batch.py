@@ -89,7 +89,7 @@ IN_SLABS = """
 &run t_end = 2e-3 /
 &material youngs_modulus = 1e6, poissons_ratio = 0.3, density = 1050 /
 &body shape = 'ring', radius = 0.05, inner_radius = 0.03, spacing = 4e-3, outline = 'lattice', clearance = 2e-4,
-    velocity = 2, -12, spin = 5 /
+    velocity = 2, -12, spin = 5, jitter = 0.1 /
 &void shape = 'disc', centre = 0, 0.04, radius = 0.005 /
 &obstacle points = -0.2, -0.02, -0.01, -0.01, 0.01, 0.01, 0.2, -0.02, friction = 0.3 /
 &solver checkpoint_steps = 20 /
