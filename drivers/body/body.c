@@ -246,28 +246,34 @@ static dem_status draw_strengths(builder *b, const dem_index *of, const dem_inde
     return status;
 }
 
-/* The body's material and those of its inclusions, [1 + n]. */
-static dem_status assemble(builder *b)
+/* Of the body's material and those of its inclusions. `of` has those of the triangles. */
+static dem_status make_springs(builder *b, const dem_index *of)
 {
-    const schema_deck *groups = b->scene->groups;
     const size_t n = b->facts.geometry.n_inclusions + 1;
     dem_material *materials = calloc(n, sizeof *materials);
-    dem_index *of = calloc((size_t)b->lattice.n_triangles, sizeof *of);
-    dem_index *numbers = body_geometry_take_numbers(&b->lattice);
-    dem_status status = materials != NULL && of != NULL && numbers != NULL ? DEM_OK : DEM_ERROR_MEMORY;
-    if (status == DEM_OK) {
-        body_geometry_materials(materials, groups, b->number - 1);
-        b->facts.plane = materials[0].plane;
-        status = body_geometry_mark(of, &b->lattice, groups, b->number - 1, b->errors);
-    }
+    if (materials == NULL) return DEM_ERROR_MEMORY;
+    body_geometry_materials(materials, b->scene->groups, b->number - 1);
+    b->facts.plane = materials[0].plane;
+    dem_status status = DEM_OK;
     for (size_t k = 0; status == DEM_OK && k < n; k++) status = check_scales(b, &materials[k]);
     if (status == DEM_OK)
         status = report(b, dem_lattice_assemble_mixed(&b->lattice, materials, (dem_index)n, of, diagonal_of(b->body)),
                         body_geometry_has_squares(b->body) ? "diagonal" : "material");
+    free(materials);
+    return status;
+}
+
+static dem_status assemble(builder *b)
+{
+    dem_index *of = calloc((size_t)b->lattice.n_triangles, sizeof *of);
+    dem_index *numbers = body_geometry_take_numbers(&b->lattice);
+    dem_status status = of != NULL && numbers != NULL ? DEM_OK : DEM_ERROR_MEMORY;
+    if (status == DEM_OK)
+        status = body_geometry_mark(of, NULL, &b->lattice, b->scene->groups, b->number - 1, b->errors);
+    if (status == DEM_OK) status = make_springs(b, of);
     for (dem_index t = 0; status == DEM_OK && t < b->lattice.n_triangles; t++) b->facts.n_included += of[t] > 0;
     if (status == DEM_OK) status = weaken(b, of);
     if (status == DEM_OK) status = draw_strengths(b, of, numbers);
-    free(materials);
     free(of);
     free(numbers);
     return status;
@@ -544,6 +550,33 @@ bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const bo
     return status != DEM_ERROR_MEMORY;
 }
 
+static void count_included(body_inclusions *found, const dem_slab *slab, const dem_index *of)
+{
+    for (dem_index t = 0; t < slab->lattice.n_triangles; t++)
+        found->n_triangles += of[t] > 0 && slab->first_triangle + t >= found->next;
+    found->next = slab->first_triangle + slab->lattice.n_triangles;
+}
+
+dem_status body_assemble_slab(dem_slab *slab, body_inclusions *found, const body_scene *scene, size_t k,
+                              namelist_errors *errors)
+{
+    builder b = begin(scene, k, errors);
+    dem_index *of = calloc((size_t)slab->lattice.n_triangles + 1, sizeof *of);
+    if (found->is_met == NULL) found->is_met = calloc(found->n + 1, sizeof *found->is_met);
+    if (of == NULL || found->is_met == NULL) {
+        free(of);
+        return DEM_ERROR_MEMORY;
+    }
+    b.lattice = slab->lattice;
+    b.facts.geometry = (body_geometry){.spacing = schema_real(b.body, "spacing"), .n_inclusions = found->n};
+    dem_status status = body_geometry_mark(of, found->is_met, &b.lattice, scene->groups, k, errors);
+    if (status == DEM_OK) status = make_springs(&b, of);
+    if (status == DEM_OK) count_included(found, slab, of);
+    slab->lattice = b.lattice;
+    free(of);
+    return status;
+}
+
 bool body_place_strip(dem_lattice *strip, body_start *start, const body_scene *scene, size_t k, const double centre[2],
                       namelist_errors *errors)
 {
@@ -551,9 +584,7 @@ bool body_place_strip(dem_lattice *strip, body_start *start, const body_scene *s
     const dem_material material = body_geometry_material(scene->groups, k);
     b.lattice = *strip;
     b.is_strip = true;
-    b.facts.geometry.spacing = schema_real(b.body, "spacing");
-    dem_status status = check_scales(&b, &material);
-    if (status == DEM_OK) status = report(&b, dem_lattice_assemble(&b.lattice, &material), "material");
+    dem_status status = report(&b, dem_lattice_assemble(&b.lattice, &material), "material");
     if (status == DEM_OK) status = put(&b, centre);
     *strip = b.lattice;
     *start = b.start;

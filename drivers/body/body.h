@@ -74,6 +74,20 @@ bool body_copy(dem_lattice *lattice, const body_facts *facts, body_start *start,
  * \return as dem_lattice_launch() and dem_lattice_spin() */
 dem_status body_put(dem_lattice *lattice, const schema_instance *body, const double *centre);
 
+/* What is found of inclusions slab by slab. Zero at first; is_met is to be freed. */
+typedef struct body_inclusions {
+    size_t n;              /* that the body has */
+    bool *is_met;          /* [n] they have a triangle */
+    dem_index n_triangles; /* of theirs, */
+    dem_index next;        /* among those of the body before this one */
+} body_inclusions;
+
+/* Gives a slab of body k, as body_geometry_slab() makes it, the springs and masses that it has in the whole. A fault is
+ * appended to `errors` with any other status but DEM_OK and DEM_ERROR_MEMORY.
+ * \param found  in it the inclusions of the slab are counted: slabs come in their order */
+dem_status body_assemble_slab(dem_slab *slab, body_inclusions *found, const body_scene *scene, size_t k,
+                              namelist_errors *errors);
+
 /* Puts the strip of a body, as a triangulation, in the place that body k has by its keys, with springs of its material.
  * A fault is appended to `errors`. Returns false only when memory runs out.
  * \param centre  of the mass of the body, m, as body_put() has it */

@@ -301,8 +301,16 @@ void body_geometry_materials(dem_material *out, const schema_deck *groups, size_
         out[i].springs = DEM_SPRINGS_INDEPENDENT;
 }
 
+static void report_inclusion(const former *f, const schema_instance *group)
+{
+    namelist_errors_add(f->errors, schema_place(group, "centre"),
+                        "inclusion has no triangle of body %zu: its centre is in the body's own coordinates",
+                        f->number);
+}
+
 /* \param inside  [n_triangles] room */
-static dem_status mark_inclusions(const former *f, dem_index *of, const dem_lattice *lattice, bool *inside)
+static dem_status mark_inclusions(const former *f, dem_index *of, bool *is_met, const dem_lattice *lattice,
+                                  bool *inside)
 {
     const dem_index step = body_geometry_has_squares(f->body) ? 2 : 1;
     dem_index material = 0;
@@ -318,23 +326,24 @@ static dem_status mark_inclusions(const former *f, dem_index *of, const dem_latt
             if (inside[t]) of[t] = material;
             n += inside[t];
         }
-        if (n > 0) continue;
-        namelist_errors_add(f->errors, schema_place(group, "centre"),
-                            "inclusion has no triangle of body %zu: its centre is in the body's own coordinates",
-                            f->number);
-        return DEM_ERROR_MODEL;
+        if (is_met != NULL) {
+            is_met[material - 1] = is_met[material - 1] || n > 0;
+        } else if (n == 0) {
+            report_inclusion(f, group);
+            return DEM_ERROR_MODEL;
+        }
     }
     return DEM_OK;
 }
 
-dem_status body_geometry_mark(dem_index *of, const dem_lattice *lattice, const schema_deck *groups, size_t k,
-                              namelist_errors *errors)
+dem_status body_geometry_mark(dem_index *of, bool *is_met, const dem_lattice *lattice, const schema_deck *groups,
+                              size_t k, namelist_errors *errors)
 {
     const former f = {.groups = groups, .body = schema_get(groups, "body", k), .number = k + 1, .errors = errors};
     bool *inside = calloc((size_t)lattice->n_triangles + 1, sizeof *inside);
     if (inside == NULL) return DEM_ERROR_MEMORY;
     for (dem_index t = 0; t < lattice->n_triangles; t++) of[t] = 0;
-    const dem_status status = mark_inclusions(&f, of, lattice, inside);
+    const dem_status status = mark_inclusions(&f, of, is_met, lattice, inside);
     free(inside);
     return status;
 }
@@ -366,7 +375,7 @@ static dem_status weigh_mesh(former *f, const dem_material *materials)
 {
     dem_index *of = calloc((size_t)f->lattice.n_triangles, sizeof *of);
     if (of == NULL) return DEM_ERROR_MEMORY;
-    const dem_status status = body_geometry_mark(of, &f->lattice, f->groups, f->number - 1, f->errors);
+    const dem_status status = body_geometry_mark(of, NULL, &f->lattice, f->groups, f->number - 1, f->errors);
     for (dem_index t = 0; status == DEM_OK && t < f->lattice.n_triangles; t++)
         f->geometry.mass += weight_of(&materials[of[t]]) * area_of_triangle(&f->lattice, t);
     free(of);

@@ -36,7 +36,7 @@ typedef struct body_part {
 } body_part;
 
 /* The same as body_geometry_triangulate() of a slab of body k, which is neither a mesh nor an image, has a stepped edge
- * and no cracks and inclusions. Free with dem_slab_free(). */
+ * and no cracks. Free with dem_slab_free(). */
 dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const schema_deck *groups, size_t k, body_part part,
                               namelist_errors *errors);
 
@@ -58,9 +58,12 @@ dem_material body_geometry_material(const schema_deck *groups, size_t k);
 void body_geometry_materials(dem_material *out, const schema_deck *groups, size_t k);
 
 /* Which of these each triangle of its lattice has: that of the last inclusion that its centre is in; whole cells of
- * squares. An inclusion without a triangle is a fault.  \param[out] of  [n_triangles] */
-dem_status body_geometry_mark(dem_index *of, const dem_lattice *lattice, const schema_deck *groups, size_t k,
-                              namelist_errors *errors);
+ * squares.
+ * \param[out] of  [n_triangles]
+ * \param is_met   [n_inclusions] those that have a triangle here become true: the lattice is but a part of the body;
+ *                 NULL: it is all of it, and an inclusion without a triangle is a fault */
+dem_status body_geometry_mark(dem_index *of, bool *is_met, const dem_lattice *lattice, const schema_deck *groups,
+                              size_t k, namelist_errors *errors);
 
 /* Path of the file that a body is made from, malloc'ed; NULL when memory runs out. `folder` is that of the deck, with
  * its last '/', or "". */

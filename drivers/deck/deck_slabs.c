@@ -19,8 +19,7 @@ static bool is_plain(const schema_instance *body)
     static const char *const of_files[] = {"file", "mesh", "mask"};
     for (size_t k = 0; k < sizeof of_files / sizeof *of_files; k++)
         if (schema_is(body, "shape", of_files[k])) return false;
-    return schema_is(body, "lattice", "triangular") && schema_is(body, "outline", "lattice") &&
-           copies_count(body) == 1 && !rigid_keys_ask(body);
+    return !schema_is(body, "outline", "smooth") && copies_count(body) == 1 && !rigid_keys_ask(body);
 }
 
 static bool is_elastic(const schema_deck *groups)
@@ -40,7 +39,7 @@ static bool shows_fragments(const schema_instance *output)
 
 bool deck_slabs_suit(const schema_deck *groups)
 {
-    static const char *const of_the_whole[] = {"crack", "inclusion", "weakness", "boundary", "probe"};
+    static const char *const of_the_whole[] = {"crack", "weakness", "boundary", "probe"};
     for (size_t k = 0; k < sizeof of_the_whole / sizeof *of_the_whole; k++)
         if (schema_count(groups, of_the_whole[k]) > 0) return false;
     return schema_count(groups, "body") == 1 && is_plain(schema_get(groups, "body", 0)) && is_elastic(groups) &&
@@ -50,26 +49,35 @@ bool deck_slabs_suit(const schema_deck *groups)
 
 /* ---- slabs ---- */
 
-static dem_status assemble(dem_slab *slab, const schema_deck *groups)
+/* Rank 0 looks at all of them, the others make one. */
+typedef struct maker {
+    const schema_deck *groups;
+    namelist_errors *errors;
+    body_geometry geometry;
+    body_inclusions inclusions;
+} maker;
+
+static dem_status triangulate(maker *m, dem_slab *slab, body_part part)
 {
-    const dem_material material = body_geometry_material(groups, 0);
-    return dem_lattice_assemble(&slab->lattice, &material);
+    const dem_status status = body_geometry_slab(slab, &m->geometry, m->groups, 0, part, m->errors);
+    m->inclusions.n = m->geometry.n_inclusions;
+    return status;
 }
 
 /* Assembled, where the body is to be but for its clearance, as it moves there. */
-static dem_status put(dem_slab *slab, const schema_deck *groups, const double centre[2])
+static dem_status put(maker *m, dem_slab *slab, const double centre[2])
 {
-    const dem_status status = assemble(slab, groups);
-    return status == DEM_OK ? body_put(&slab->lattice, schema_get(groups, "body", 0), centre) : status;
+    const body_scene scene = {.groups = m->groups};
+    const dem_status status = body_assemble_slab(slab, &m->inclusions, &scene, 0, m->errors);
+    return status == DEM_OK ? body_put(&slab->lattice, schema_get(m->groups, "body", 0), centre) : status;
 }
 
 /* ---- looking ---- */
 
 typedef struct looker {
+    maker maker;
     deck_slabs_found *found;
     slab_survey survey;
-    const schema_deck *groups;
-    namelist_errors *errors;
     bool spins;
     double moment[2]; /* kg m, sum of masses times places */
     double centre[2]; /* of mass, m, once all slabs have been seen */
@@ -102,7 +110,7 @@ static dem_status survey(looker *k, dem_slab *slab)
 {
     if (!slab_survey_add_strip(&k->survey, slab)) return DEM_ERROR_MEMORY;
     dem_status status = note_angle(&k->found->body, slab);
-    if (status == DEM_OK) status = put(slab, k->groups, k->centre);
+    if (status == DEM_OK) status = put(&k->maker, slab, k->centre);
     if (status == DEM_OK && !slab_survey_add_parts(&k->survey, slab)) return DEM_ERROR_MEMORY;
     if (status == DEM_OK) add_mass(k, slab);
     return status == DEM_OK && !k->spins ? add_facts(k, slab) : status;
@@ -111,7 +119,7 @@ static dem_status survey(looker *k, dem_slab *slab)
 /* Of a body that spins, whose centre of mass is known by now. */
 static dem_status look_at_motion(looker *k, dem_slab *slab)
 {
-    const dem_status status = put(slab, k->groups, k->centre);
+    const dem_status status = put(&k->maker, slab, k->centre);
     return status == DEM_OK ? add_facts(k, slab) : status;
 }
 
@@ -120,18 +128,27 @@ static dem_status for_each(looker *k, dem_index n, dem_status (*look)(looker *k,
     dem_status status = DEM_OK;
     for (dem_index part = 0; part < n && status == DEM_OK; part++) {
         dem_slab slab;
-        status = body_geometry_slab(&slab, &k->found->body.geometry, k->groups, 0, (body_part){part, n}, k->errors);
+        status = triangulate(&k->maker, &slab, (body_part){part, n});
         if (status == DEM_OK) status = look(k, &slab);
         dem_slab_free(&slab);
     }
     return status;
 }
 
+static bool all_are_met(const body_inclusions *inclusions)
+{
+    for (size_t i = 0; i < inclusions->n; i++)
+        if (!inclusions->is_met[i]) return false;
+    return true;
+}
+
 static dem_status look_at_all(looker *k, dem_index n)
 {
     const dem_status status = for_each(k, n, survey);
     if (status != DEM_OK) return status;
-    if (!slab_survey_is_one(&k->survey)) return DEM_ERROR_MODEL;
+    if (!slab_survey_is_one(&k->survey) || !all_are_met(&k->maker.inclusions)) return DEM_ERROR_MODEL;
+    k->found->body.geometry = k->maker.geometry;
+    k->found->body.n_included = k->maker.inclusions.n_triangles;
     for (int c = 0; c < 2; c++) k->centre[c] = 1.0 / k->found->body.mass * k->moment[c];
     return k->spins ? for_each(k, n, look_at_motion) : DEM_OK;
 }
@@ -140,11 +157,11 @@ static dem_status place(looker *k, const body_scene *scene)
 {
     deck_slabs_found *f = k->found;
     if (!slab_survey_take_strip(&f->strip, &k->survey)) return DEM_ERROR_MEMORY;
-    if (!body_place_strip(&f->strip, &f->start, scene, 0, k->centre, k->errors)) return DEM_ERROR_MEMORY;
+    if (!body_place_strip(&f->strip, &f->start, scene, 0, k->centre, k->maker.errors)) return DEM_ERROR_MEMORY;
     lattice_facts_find_box(&f->lattice, &f->strip);
     f->body.true_mass = f->body.geometry.mass;
     f->body.plane = body_geometry_material(scene->groups, 0).plane;
-    return k->errors->n == 0 ? DEM_OK : DEM_ERROR_MODEL;
+    return k->maker.errors->n == 0 ? DEM_OK : DEM_ERROR_MODEL;
 }
 
 static void forget(deck_slabs_found *f)
@@ -157,9 +174,8 @@ static void forget(deck_slabs_found *f)
 bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const body_scene *scene)
 {
     namelist_errors errors = {0};
-    looker k = {.found = out,
-                .groups = scene->groups,
-                .errors = &errors,
+    looker k = {.maker = {.groups = scene->groups, .errors = &errors},
+                .found = out,
                 .spins = schema_real(schema_get(scene->groups, "body", 0), "spin") != 0.0};
     *out = (deck_slabs_found){.strip = dem_lattice_empty(), .body.least_angle = (double)INFINITY};
     dem_status status = look_at_all(&k, slabs->n);
@@ -168,6 +184,7 @@ bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const body_scene 
     memcpy(slabs->place.centre, k.centre, sizeof k.centre);
     memcpy(slabs->place.shift, out->start.shift, sizeof out->start.shift);
     slab_survey_free(&k.survey);
+    free(k.maker.inclusions.is_met);
     namelist_errors_free(&errors);
     if (status != DEM_OK) forget(out);
     return status != DEM_ERROR_MEMORY;
@@ -195,10 +212,11 @@ void *deck_slabs_recipe(size_t *size, const deck_slabs *slabs, const char *echo)
 static dem_status make(dem_slab *out, const recipe *r, const schema_deck *groups, body_part part,
                        namelist_errors *errors)
 {
-    body_geometry ignored;
-    dem_status status = body_geometry_slab(out, &ignored, groups, 0, part, errors);
-    if (status == DEM_OK) status = put(out, groups, r->place.centre);
+    maker m = {.groups = groups, .errors = errors};
+    dem_status status = triangulate(&m, out, part);
+    if (status == DEM_OK) status = put(&m, out, r->place.centre);
     if (schema_given(schema_get(groups, "body", 0), "clearance")) dem_lattice_move(&out->lattice, 0.0, r->place.shift);
+    free(m.inclusions.is_met);
     return status;
 }
 

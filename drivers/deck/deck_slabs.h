@@ -7,8 +7,8 @@
 #include "body.h"
 #include "lattice_facts.h"
 
-/* Whether the keys ask for nothing that takes the whole: a single elastic body of a triangular lattice with stepped
- * edges, without cracks, inclusions, loads, probes and rest. */
+/* Whether the keys ask for nothing that takes the whole: a single elastic body with stepped edges, without cracks,
+ * loads, probes and rest. */
 bool deck_slabs_suit(const schema_deck *groups);
 
 /* What makes of a slab, besides the keys, what it is in the whole. */

@@ -29,13 +29,19 @@ static bool make_bodies(lattice_facts *f, dem_index n)
     return true;
 }
 
-/* Nodes from `first` on, and all springs. */
+static bool is_in(dem_index node, dem_index first, dem_index n)
+{
+    return node >= first && node < first + n;
+}
+
+/* Nodes from `first` on, and springs that have one of them: others have not all of their triangles. */
 static bool add(lattice_facts *f, const dem_lattice *l, dem_index first, dem_index n)
 {
     f->may_break = l->strength != NULL || l->critical_stretch != NULL;
     f->may_soften = f->may_break && l->softening != NULL;
     for (dem_index k = 0; k < l->n_springs && l->viscosity != NULL; k++)
-        f->damping_time = fmax(f->damping_time, l->viscosity[k] / l->stiffness[k]);
+        if (is_in(l->ends[2 * k], first, n) || is_in(l->ends[2 * k + 1], first, n))
+            f->damping_time = fmax(f->damping_time, l->viscosity[k] / l->stiffness[k]);
     for (dem_index i = first; i < first + n; i++) {
         if (!make_bodies(f, body_of(l, i) + 1)) return false;
         lattice_body *body = &f->bodies[body_of(l, i)];

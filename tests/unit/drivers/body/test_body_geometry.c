@@ -298,7 +298,7 @@ static dem_index *mark(formed *f, const char *text, size_t n)
     *f = build_good(text);
     dem_index *of = calloc((size_t)f->lattice.n_triangles, sizeof *of);
     assert_non_null(of);
-    assert_int_equal(body_geometry_mark(of, &f->lattice, &r.deck, 0, &errors), DEM_OK);
+    assert_int_equal(body_geometry_mark(of, NULL, &f->lattice, &r.deck, 0, &errors), DEM_OK);
     assert_int_equal(f->geometry.n_inclusions, n);
     body_geometry_materials(materials, &r.deck, 0);
     assert_close(materials[0].density, 1000.0, 0.0);
@@ -365,7 +365,7 @@ TEST(an_inclusion_without_a_triangle_is_reported)
     resolved r = resolve_clean(RUN RUBBER BLOCK "&inclusion material = 'rubber', centre = 0, 5, radius = 1 /");
     CLEANUP(free_memory) dem_index *of = calloc((size_t)f.lattice.n_triangles, sizeof *of);
     assert_non_null(of);
-    assert_int_equal(body_geometry_mark(of, &f.lattice, &r.deck, 0, &errors), DEM_ERROR_MODEL);
+    assert_int_equal(body_geometry_mark(of, NULL, &f.lattice, &r.deck, 0, &errors), DEM_ERROR_MODEL);
     assert_int_equal(errors.n, 1);
     assert_non_null(strstr(errors.list[0].text, "inclusion has no triangle of body 1"));
 }

@@ -27,6 +27,21 @@ static const char *const suited[] = {
     RUN "&obstacle points = -0.3, -0.02, 0.0008, -0.02, 0.0012, 0.022, 0.0016, -0.02, 0.3, -0.02 /\n"
         "&body shape = 'rectangle', size = 0.06, 0.06, spacing = 5e-3, outline = 'lattice', clearance = 2e-4, "
         "position = 0, -0.003 /\n",
+    RUN GROUND
+    "&body shape = 'disc', radius = 0.05, spacing = 4e-3, lattice = 'square', diagonal = 0.4, "
+    "clearance = 1e-4, angle = 30, jitter = 0.2, seed = 2 /\n&void shape = 'disc', centre = 0, 0, radius = 0.02 /\n",
+    /* Of single triangles, where no spring is damped as long as their material is. */
+    RUN "&material name = 'core', youngs_modulus = 3e7, density = 3000, damping_time = 4e-6 /\n"
+        "&material name = 'spot', youngs_modulus = 3e7, density = 3000, damping_time = 1e-4 /\n"
+        "&body shape = 'rectangle', size = 0.09, 0.1, spacing = 4e-3, outline = 'lattice', "
+        "spin = 20 /\n"
+        "&inclusion shape = 'disc', centre = 0.015, 0.05, radius = 0.025, material = 'core' /\n"
+        "&inclusion shape = 'disc', centre = -0.03, 0.04619, radius = 1e-3, material = 'spot' /\n"
+        "&inclusion shape = 'disc', centre = -0.028, 0.04965, radius = 1e-3, material = 'spot' /\n"
+        "&inclusion shape = 'disc', centre = -0.03, 0.05312, radius = 1e-3, material = 'spot' /\n",
+    RUN "&material name = 'core', youngs_modulus = 3e7, density = 3000, damping_time = 4e-5 /\n"
+        "&body shape = 'rectangle', size = 0.06, 0.08, spacing = 4e-3, lattice = 'square' /\n"
+        "&inclusion shape = 'rectangle', centre = 0.0, 0.045, size = 0.02, 0.03, material = 'core' /\n",
 };
 enum { N_SUITED = sizeof suited / sizeof *suited, MOST_SLABS = 5 };
 
@@ -57,6 +72,7 @@ static void check_facts(const deck *whole, const deck *slabs)
     assert_memory_equal(&a->least_angle, &b->least_angle, sizeof a->least_angle);
     assert_memory_equal(&a->geometry.area, &b->geometry.area, sizeof a->geometry.area);
     assert_int_equal(a->geometry.n_pores, b->geometry.n_pores);
+    assert_int_equal(a->n_included, b->n_included);
     assert_int_equal(a->loose.n + b->loose.n + a->hinges.n + b->hinges.n, 0);
     assert_memory_equal(&f->motion, &g->motion, sizeof f->motion);
     assert_memory_equal(f->low, g->low, sizeof f->low);
@@ -77,11 +93,27 @@ static void check_nodes(const dem_lattice *whole, const dem_slab *slab)
     assert_memory_equal(whole->velocity + 2 * first, l->velocity + 2 * own, 2 * n * sizeof *l->velocity);
 }
 
+/* Those whose lower end is an own node come behind those of the slabs before. \return how many there are in all */
+static dem_index check_springs(const dem_lattice *whole, const dem_slab *slab, dem_index before)
+{
+    const dem_lattice *l = &slab->lattice;
+    for (dem_index k = 0; k < l->n_springs; k++) {
+        const dem_index a = l->ends[2 * k], b = l->ends[2 * k + 1], lower = a < b ? a : b;
+        if (lower < slab->first_own || lower >= slab->first_own + slab->n_own) continue;
+        assert_true(before < whole->n_springs);
+        assert_memory_equal(whole->stiffness + before, l->stiffness + k, sizeof *l->stiffness);
+        assert_memory_equal(whole->rest_length + before, l->rest_length + k, sizeof *l->rest_length);
+        assert_memory_equal(whole->viscosity + before, l->viscosity + k, sizeof *l->viscosity);
+        before++;
+    }
+    return before;
+}
+
 static void check_slabs(const deck *whole, const deck *slabs)
 {
     size_t size;
     void *recipe = deck_slabs_recipe(&size, &slabs->slabs, slabs->echo);
-    dem_index n_nodes = 0;
+    dem_index n_nodes = 0, n_springs = 0;
     assert_non_null(recipe);
     for (dem_index part = 0; part < slabs->slabs.n; part++) {
         CLEANUP(dem_slab_free) dem_slab slab = dem_slab_empty();
@@ -89,8 +121,10 @@ static void check_slabs(const deck *whole, const deck *slabs)
         assert_int_equal(slab.first_node, n_nodes);
         check_nodes(&whole->lattice, &slab);
         n_nodes += slab.n_own;
+        n_springs = check_springs(&whole->lattice, &slab, n_springs);
     }
     assert_int_equal(n_nodes, whole->lattice.n_nodes);
+    assert_int_equal(n_springs, whole->lattice.n_springs);
     free(recipe);
 }
 
@@ -113,7 +147,6 @@ TEST(what_asks_for_more_is_built_as_a_whole)
 {
     static const char *const others[] = {
         RUN "&body shape = 'rectangle', size = 0.05, 0.05, spacing = 5e-3, outline = 'smooth' /\n",
-        RUN "&body shape = 'rectangle', size = 0.05, 0.05, spacing = 5e-3, lattice = 'square' /\n",
         RUN "&body shape = 'disc', radius = 0.05, spacing = 5e-3, outline = 'lattice' /\n"
             "&probe name = 'p', body = 1, place = 0, 0 /\n",
         RUN "&body shape = 'disc', radius = 0.02, spacing = 5e-3, outline = 'lattice' /\n"
