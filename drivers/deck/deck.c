@@ -273,17 +273,40 @@ static bool check_starts(const deck *d, const body_start *starts, const body_sce
     return true;
 }
 
+static dem_status look_at_probes(void *search, const dem_slab *slab)
+{
+    probes_look(search, slab);
+    return DEM_OK;
+}
+
+static bool find_probes(deck *d, const schema_deck *groups, const placement *bodies, namelist_errors *errors)
+{
+    probe_search s;
+    dem_slab whole = dem_slab_empty();
+    bool good = probes_begin(&s, d->probes, groups, bodies);
+    whole.n_own = d->lattice.n_nodes;
+    whole.lattice = d->lattice;
+    if (good && d->slabs.are_made)
+        good = deck_slabs_each(&d->slabs, groups, look_at_probes, &s) == DEM_OK;
+    else if (good)
+        probes_look(&s, &whole);
+    if (good) probes_end(&s, d->probe_places, errors);
+    probes_forget(&s);
+    return good;
+}
+
 static bool set_probes(deck *d, const schema_deck *groups, const placement *bodies, namelist_errors *errors)
 {
     const size_t n = schema_count(groups, "probe");
-    d->probes = calloc(n + 1, sizeof *d->probes);
-    d->probe_places = calloc(n + 1, sizeof *d->probe_places);
+    if (n == 0) return true;
+    d->probes = calloc(n, sizeof *d->probes);
+    d->probe_places = calloc(n, sizeof *d->probe_places);
     if (d->probes == NULL || d->probe_places == NULL) return false;
     d->n_probes = (dem_index)n;
-    const bool good = probes_find(d->probes, groups, &d->lattice, bodies, errors);
-    for (size_t k = 0; k < n && good && errors->n == 0; k++)
-        probes_place(d->probe_places[k], &d->probes[k], &d->lattice);
-    return good;
+    if (!d->slabs.are_made) return find_probes(d, groups, bodies, errors);
+    placement whole = bodies[0];
+    whole.n_nodes = d->slabs.n_nodes;
+    return find_probes(d, groups, &whole, errors);
 }
 
 /* In place of the lattice its strip, which is as good for all checks. */

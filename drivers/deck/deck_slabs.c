@@ -39,7 +39,7 @@ static bool shows_fragments(const schema_instance *output)
 
 bool deck_slabs_suit(const schema_deck *groups)
 {
-    static const char *const of_the_whole[] = {"crack", "weakness", "boundary", "probe"};
+    static const char *const of_the_whole[] = {"crack", "weakness", "boundary"};
     for (size_t k = 0; k < sizeof of_the_whole / sizeof *of_the_whole; k++)
         if (schema_count(groups, of_the_whole[k]) > 0) return false;
     return schema_count(groups, "body") == 1 && is_plain(schema_get(groups, "body", 0)) && is_elastic(groups) &&
@@ -53,6 +53,7 @@ bool deck_slabs_suit(const schema_deck *groups)
 typedef struct maker {
     const schema_deck *groups;
     namelist_errors *errors;
+    dem_index n_nodes; /* of the whole */
     body_geometry geometry;
     body_inclusions inclusions;
 } maker;
@@ -60,6 +61,7 @@ typedef struct maker {
 static dem_status triangulate(maker *m, dem_slab *slab, body_part part)
 {
     const dem_status status = body_geometry_slab(slab, &m->geometry, m->groups, 0, part, m->errors);
+    m->n_nodes = slab->n_nodes;
     m->inclusions.n = m->geometry.n_inclusions;
     return status;
 }
@@ -72,13 +74,44 @@ static dem_status put(maker *m, dem_slab *slab, const double centre[2])
     return status == DEM_OK ? body_put(&slab->lattice, schema_get(m->groups, "body", 0), centre) : status;
 }
 
+/* In its place, by the same steps as a whole body. */
+static dem_status make(dem_slab *out, const slab_place *place, const schema_deck *groups, body_part part,
+                       namelist_errors *errors)
+{
+    maker m = {.groups = groups, .errors = errors};
+    dem_status status = triangulate(&m, out, part);
+    if (status == DEM_OK) status = put(&m, out, place->centre);
+    if (schema_given(schema_get(groups, "body", 0), "clearance")) dem_lattice_move(&out->lattice, 0.0, place->shift);
+    free(m.inclusions.is_met);
+    return status;
+}
+
+dem_status deck_slabs_each(const deck_slabs *slabs, const schema_deck *groups, deck_slabs_visitor *visit, void *visitor)
+{
+    namelist_errors errors = {0};
+    dem_status status = DEM_OK;
+    for (dem_index part = 0; part < slabs->n && status == DEM_OK; part++) {
+        dem_slab slab;
+        status = make(&slab, &slabs->place, groups, (body_part){part, slabs->n}, &errors);
+        if (status == DEM_OK) status = visit(visitor, &slab);
+        dem_slab_free(&slab);
+    }
+    namelist_errors_free(&errors);
+    return status;
+}
+
 /* ---- looking ---- */
+
+static dem_status add_facts(void *facts, const dem_slab *slab)
+{
+    return lattice_facts_add(facts, slab) ? DEM_OK : DEM_ERROR_MEMORY;
+}
 
 typedef struct looker {
     maker maker;
     deck_slabs_found *found;
     slab_survey survey;
-    bool spins;
+    bool spins;       /* how it moves is not known before its centre of mass is */
     double moment[2]; /* kg m, sum of masses times places */
     double centre[2]; /* of mass, m, once all slabs have been seen */
 } looker;
@@ -101,11 +134,6 @@ static dem_status note_angle(body_facts *facts, const dem_slab *slab)
     return status;
 }
 
-static dem_status add_facts(looker *k, const dem_slab *slab)
-{
-    return lattice_facts_add(&k->found->lattice, slab) ? DEM_OK : DEM_ERROR_MEMORY;
-}
-
 static dem_status survey(looker *k, dem_slab *slab)
 {
     if (!slab_survey_add_strip(&k->survey, slab)) return DEM_ERROR_MEMORY;
@@ -113,23 +141,16 @@ static dem_status survey(looker *k, dem_slab *slab)
     if (status == DEM_OK) status = put(&k->maker, slab, k->centre);
     if (status == DEM_OK && !slab_survey_add_parts(&k->survey, slab)) return DEM_ERROR_MEMORY;
     if (status == DEM_OK) add_mass(k, slab);
-    return status == DEM_OK && !k->spins ? add_facts(k, slab) : status;
+    return status == DEM_OK && !k->spins ? add_facts(&k->found->lattice, slab) : status;
 }
 
-/* Of a body that spins, whose centre of mass is known by now. */
-static dem_status look_at_motion(looker *k, dem_slab *slab)
-{
-    const dem_status status = put(&k->maker, slab, k->centre);
-    return status == DEM_OK ? add_facts(k, slab) : status;
-}
-
-static dem_status for_each(looker *k, dem_index n, dem_status (*look)(looker *k, dem_slab *slab))
+static dem_status survey_all(looker *k, dem_index n)
 {
     dem_status status = DEM_OK;
     for (dem_index part = 0; part < n && status == DEM_OK; part++) {
         dem_slab slab;
         status = triangulate(&k->maker, &slab, (body_part){part, n});
-        if (status == DEM_OK) status = look(k, &slab);
+        if (status == DEM_OK) status = survey(k, &slab);
         dem_slab_free(&slab);
     }
     return status;
@@ -144,13 +165,13 @@ static bool all_are_met(const body_inclusions *inclusions)
 
 static dem_status look_at_all(looker *k, dem_index n)
 {
-    const dem_status status = for_each(k, n, survey);
+    const dem_status status = survey_all(k, n);
     if (status != DEM_OK) return status;
     if (!slab_survey_is_one(&k->survey) || !all_are_met(&k->maker.inclusions)) return DEM_ERROR_MODEL;
     k->found->body.geometry = k->maker.geometry;
     k->found->body.n_included = k->maker.inclusions.n_triangles;
     for (int c = 0; c < 2; c++) k->centre[c] = 1.0 / k->found->body.mass * k->moment[c];
-    return k->spins ? for_each(k, n, look_at_motion) : DEM_OK;
+    return DEM_OK;
 }
 
 static dem_status place(looker *k, const body_scene *scene)
@@ -180,9 +201,11 @@ bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const body_scene 
     *out = (deck_slabs_found){.strip = dem_lattice_empty(), .body.least_angle = (double)INFINITY};
     dem_status status = look_at_all(&k, slabs->n);
     if (status == DEM_OK) status = place(&k, scene);
-    slabs->are_made = status == DEM_OK;
+    slabs->n_nodes = k.maker.n_nodes;
     memcpy(slabs->place.centre, k.centre, sizeof k.centre);
     memcpy(slabs->place.shift, out->start.shift, sizeof out->start.shift);
+    if (status == DEM_OK && k.spins) status = deck_slabs_each(slabs, scene->groups, add_facts, &out->lattice);
+    slabs->are_made = status == DEM_OK;
     slab_survey_free(&k.survey);
     free(k.maker.inclusions.is_met);
     namelist_errors_free(&errors);
@@ -208,18 +231,6 @@ void *deck_slabs_recipe(size_t *size, const deck_slabs *slabs, const char *echo)
     return r;
 }
 
-/* In its place, by the same steps as a whole body. */
-static dem_status make(dem_slab *out, const recipe *r, const schema_deck *groups, body_part part,
-                       namelist_errors *errors)
-{
-    maker m = {.groups = groups, .errors = errors};
-    dem_status status = triangulate(&m, out, part);
-    if (status == DEM_OK) status = put(&m, out, r->place.centre);
-    if (schema_given(schema_get(groups, "body", 0), "clearance")) dem_lattice_move(&out->lattice, 0.0, r->place.shift);
-    free(m.inclusions.is_met);
-    return status;
-}
-
 dem_status deck_slabs_make(void *program, const void *bytes, size_t size, dem_index part, dem_index n_parts,
                            dem_slab *out)
 {
@@ -232,7 +243,8 @@ dem_status deck_slabs_make(void *program, const void *bytes, size_t size, dem_in
     bool good = namelist_parse(&list, text, size - sizeof *r - 1, &errors);
     if (good) good = schema_resolve(&groups, &list, &errors);
     dem_status status = good ? DEM_OK : DEM_ERROR_MEMORY;
-    if (good) status = errors.n == 0 ? make(out, r, &groups, (body_part){part, n_parts}, &errors) : DEM_ERROR_MODEL;
+    if (good)
+        status = errors.n == 0 ? make(out, &r->place, &groups, (body_part){part, n_parts}, &errors) : DEM_ERROR_MODEL;
     schema_free(&groups);
     namelist_free(&list);
     namelist_errors_free(&errors);

@@ -8,7 +8,7 @@
 #include "lattice_facts.h"
 
 /* Whether the keys ask for nothing that takes the whole: a single elastic body with stepped edges, without cracks,
- * loads, probes and rest. */
+ * loads and rest. */
 bool deck_slabs_suit(const schema_deck *groups);
 
 /* What makes of a slab, besides the keys, what it is in the whole. */
@@ -18,8 +18,9 @@ typedef struct slab_place {
 } slab_place;
 
 typedef struct deck_slabs {
-    dem_index n;   /* slabs in which the body is looked at, if the deck suits; 0: it is built as a whole */
-    bool are_made; /* its lattice is made in slabs, and the deck has none */
+    dem_index n;       /* slabs in which the body is looked at, if the deck suits; 0: it is built as a whole */
+    bool are_made;     /* its lattice is made in slabs, and the deck has none; */
+    dem_index n_nodes; /* that the body has then */
     slab_place place;
 } deck_slabs;
 
@@ -34,6 +35,12 @@ typedef struct deck_slabs_found {
 /* Looks at the body slab by slab. Where slabs->are_made is false afterwards nothing has been found; else the caller
  * owns it. False when memory runs out. */
 bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const body_scene *scene);
+
+/* Shows each slab as its rank will make it, in their order; what fails here does not fail on the ranks but for memory.
+ * \return what `visit` does */
+typedef dem_status deck_slabs_visitor(void *visitor, const dem_slab *slab);
+dem_status deck_slabs_each(const deck_slabs *slabs, const schema_deck *groups, deck_slabs_visitor *visit,
+                           void *visitor);
 
 /* What rank 0 sends to the others: bytes, malloc'ed; NULL when memory runs out.
  * \param echo  the resolved deck */

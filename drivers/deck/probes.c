@@ -84,107 +84,136 @@ void probes_drop_unused(schema_deck *groups)
 
 /* ---- what is nearest ---- */
 
+/* A probe has one, a gauge two. */
+struct probe_end {
+    dem_index number;      /* as given, or of what is nearest so far; -1: of nothing */
+    const placement *body; /* in which the nearest is looked for; NULL: the number is given */
+    double at[2];          /* m, the place that it is to be nearest to, in the body's own coordinates */
+    double least;          /* m, distance of what is nearest */
+    double x[2];           /* m, where what has the number is */
+};
+
 static double distance(const double *a, const double *b)
 {
     return hypot(a[0] - b[0], a[1] - b[1]);
 }
 
-/* From the middle between nodes i and j, which may be the same, to a place in the body's own coordinates. */
-static double distance_to(const dem_lattice *l, const placement *body, dem_index i, dem_index j, const double at[2])
+/* At something of this number, with `node` in it, at x. */
+static void look_at(probe_end *e, dem_index number, dem_index node, const double x[2])
 {
-    const double *a = l->x + 2 * i, *b = l->x + 2 * j, middle[2] = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
-    double own[2];
-    placement_own(body, middle, own);
-    return distance(own, at);
-}
-
-static dem_index nearest_node(const dem_lattice *l, const placement *body, const double at[2])
-{
-    dem_index nearest = -1;
-    double least = (double)INFINITY;
-    for (dem_index i = body->first; i < body->first + body->n_nodes; i++) {
-        const double d = distance_to(l, body, i, i, at);
-        if (d >= least) continue;
-        nearest = i;
-        least = d;
+    double own[2], d = 0.0;
+    if (e->body != NULL) {
+        if (node < e->body->first || node >= e->body->first + e->body->n_nodes) return;
+        placement_own(e->body, x, own);
+        d = distance(own, e->at);
+        if (d >= e->least) return;
+    } else if (number != e->number) {
+        return;
     }
-    return nearest;
+    e->number = number;
+    e->least = d;
+    for (int c = 0; c < 2; c++) e->x[c] = x[c];
 }
 
-/* -1 in a body without springs. */
-static dem_index nearest_spring(const dem_lattice *l, const placement *body, const double at[2])
+static void look_at_nodes(probe_end *e, const dem_slab *slab)
 {
-    dem_index nearest = -1;
-    double least = (double)INFINITY;
+    for (dem_index k = 0; k < slab->n_own; k++)
+        look_at(e, slab->first_node + k, slab->first_node + k, slab->lattice.x + 2 * (slab->first_own + k));
+}
+
+/* At those whose lower end is an own node, the first of which has the number `first`. \return behind the last one */
+static dem_index look_at_springs(probe_end *e, const dem_slab *slab, dem_index first)
+{
+    const dem_lattice *l = &slab->lattice;
+    dem_index number = first;
     for (dem_index k = 0; k < l->n_springs; k++) {
-        const dem_index *ends = l->ends + 2 * k;
-        if (ends[0] < body->first || ends[0] >= body->first + body->n_nodes) continue;
-        const double d = distance_to(l, body, ends[0], ends[1], at);
-        if (d >= least) continue;
-        nearest = k;
-        least = d;
+        const dem_index i = l->ends[2 * k], j = l->ends[2 * k + 1], own = (i < j ? i : j) - slab->first_own;
+        const double *a = l->x + 2 * i, *b = l->x + 2 * j, middle[2] = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+        if (own < 0 || own >= slab->n_own) continue;
+        if (e != NULL) look_at(e, number, slab->first_node + own, middle);
+        number++;
     }
-    return nearest;
+    return number;
 }
 
-static void find_nearest(dem_probe *p, const schema_instance *probe, const dem_lattice *lattice, const placement *body)
+void probes_look(probe_search *s, const dem_slab *slab)
 {
-    const double *place = schema_value_of(probe, "place")->reals;
-    for (int k = 0; k < count_ends(probe); k++) {
-        const double *at = place + 2 * k;
-        p->number[k] =
-            p->kind == DEM_PROBE_SPRING ? nearest_spring(lattice, body, at) : nearest_node(lattice, body, at);
+    for (size_t k = 0; k < s->n; k++) {
+        const dem_probe *p = &s->probes[k];
+        for (probe_end *e = s->ends + 2 * k; e < s->ends + 2 * k + count_ends(schema_get(s->groups, "probe", k)); e++) {
+            if (p->kind == DEM_PROBE_SPRING)
+                (void)look_at_springs(e, slab, s->n_springs);
+            else
+                look_at_nodes(e, slab);
+        }
     }
+    s->n_nodes += slab->n_own;
+    s->n_springs = look_at_springs(NULL, slab, s->n_springs);
 }
 
 /* ---- probes ---- */
 
-static void check_found(const dem_probe *p, const schema_instance *probe, const dem_lattice *l, namelist_errors *errors)
+static void begin_end(probe_end *e, const schema_instance *probe, const placement *bodies, int q)
 {
-    const bool placed = schema_value_of(probe, "place")->given;
-    const namelist_place where = schema_value_of(probe, placed ? "place" : "number")->place;
-    const bool spring = p->kind == DEM_PROBE_SPRING;
-    const dem_index n = spring ? l->n_springs : l->n_nodes;
-    for (int k = 0; k < count_ends(probe); k++)
-        if (p->number[k] < 0 || p->number[k] >= n) {
+    *e = (probe_end){.number = -1, .least = (double)INFINITY};
+    if (schema_given(probe, "number")) {
+        e->number = (dem_index)schema_reals(probe, "number")[q];
+        return;
+    }
+    e->body = &bodies[(size_t)schema_real(probe, "body") - 1];
+    for (int c = 0; c < 2; c++) e->at[c] = schema_reals(probe, "place")[2 * q + c];
+}
+
+bool probes_begin(probe_search *out, dem_probe *probes, const schema_deck *groups, const placement *bodies)
+{
+    const size_t n = schema_count(groups, "probe");
+    *out = (probe_search){.groups = groups, .probes = probes, .n = n, .ends = calloc(2 * n + 1, sizeof *out->ends)};
+    for (size_t k = 0; k < n && out->ends != NULL; k++) {
+        const schema_instance *probe = schema_get(groups, "probe", k);
+        probes[k] = (dem_probe){.name = strdup(schema_text(probe, "name")),
+                                .kind = has_kind(probe, "gauge")    ? DEM_PROBE_GAUGE
+                                        : has_kind(probe, "spring") ? DEM_PROBE_SPRING
+                                                                    : DEM_PROBE_NODE,
+                                .every = (dem_index)schema_real(probe, "every")};
+        if (probes[k].name == NULL) return false;
+        for (int q = 0; q < count_ends(probe); q++) begin_end(&out->ends[2 * k + (size_t)q], probe, bodies, q);
+    }
+    return out->ends != NULL;
+}
+
+static void check_found(const probe_search *s, size_t k, namelist_errors *errors)
+{
+    const schema_instance *probe = schema_get(s->groups, "probe", k);
+    const probe_end *end = s->ends + 2 * k;
+    const namelist_place where = schema_place(probe, schema_given(probe, "place") ? "place" : "number");
+    const bool spring = s->probes[k].kind == DEM_PROBE_SPRING;
+    const dem_index n = spring ? s->n_springs : s->n_nodes;
+    for (int q = 0; q < count_ends(probe); q++)
+        if (end[q].number < 0 || end[q].number >= n) {
             namelist_errors_add(errors, where,
                                 "probe '%s': there is no such %s; they are numbered from 0, and there are %lld",
-                                p->name, spring ? "spring" : "node", (long long)n);
+                                s->probes[k].name, spring ? "spring" : "node", (long long)n);
             return;
         }
-    if (p->kind != DEM_PROBE_GAUGE) return;
-    if (distance(l->x + 2 * p->number[0], l->x + 2 * p->number[1]) > 0.0) return;
-    namelist_errors_add(errors, where, "probe '%s': both ends of the gauge are at node %lld", p->name,
-                        (long long)p->number[0]);
+    if (s->probes[k].kind != DEM_PROBE_GAUGE || distance(end[0].x, end[1].x) > 0.0) return;
+    namelist_errors_add(errors, where, "probe '%s': both ends of the gauge are at node %lld", s->probes[k].name,
+                        (long long)end[0].number);
 }
 
-bool probes_find(dem_probe *out, const schema_deck *groups, const dem_lattice *lattice, const placement *bodies,
-                 namelist_errors *errors)
+void probes_end(probe_search *s, double (*places)[2], namelist_errors *errors)
 {
-    for (size_t k = 0; k < schema_count(groups, "probe"); k++) {
-        const schema_instance *probe = schema_get(groups, "probe", k);
-        const schema_value *number = schema_value_of(probe, "number");
-        out[k] = (dem_probe){.name = strdup(schema_text(probe, "name")),
-                             .kind = has_kind(probe, "gauge")    ? DEM_PROBE_GAUGE
-                                     : has_kind(probe, "spring") ? DEM_PROBE_SPRING
-                                                                 : DEM_PROBE_NODE,
-                             .every = (dem_index)schema_real(probe, "every")};
-        if (out[k].name == NULL) return false;
-        if (number->given)
-            for (int q = 0; q < count_ends(probe); q++) out[k].number[q] = (dem_index)number->reals[q];
-        else
-            find_nearest(&out[k], probe, lattice, &bodies[(size_t)schema_real(probe, "body") - 1]);
-        check_found(&out[k], probe, lattice, errors);
+    for (size_t k = 0; k < s->n; k++) {
+        const probe_end *end = s->ends + 2 * k, *last = end + count_ends(schema_get(s->groups, "probe", k)) - 1;
+        for (const probe_end *e = end; e <= last; e++) s->probes[k].number[e - end] = e->number;
+        for (int c = 0; c < 2; c++) places[k][c] = 0.5 * (end->x[c] + last->x[c]);
+        check_found(s, k, errors);
     }
-    return true;
 }
 
-void probes_place(double at[2], const dem_probe *p, const dem_lattice *lattice)
+void probes_forget(probe_search *s)
 {
-    const dem_index first = p->number[0];
-    const dem_index node[2] = {first, p->kind == DEM_PROBE_GAUGE ? p->number[1] : first};
-    const dem_index *ends = p->kind == DEM_PROBE_SPRING ? lattice->ends + 2 * first : node;
-    for (int c = 0; c < 2; c++) at[c] = 0.5 * (lattice->x[2 * ends[0] + c] + lattice->x[2 * ends[1] + c]);
+    free(s->ends);
+    *s = (probe_search){0};
 }
 
 void probes_free(dem_probe *probes, size_t n)

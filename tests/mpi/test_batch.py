@@ -95,6 +95,9 @@ IN_SLABS = """
 &solver checkpoint_steps = 20 /
 &output name = 'free', frame_interval = 2e-4, peak_every = 3, measure = .false.,
     fields = 'displacement', 'velocity', 'stress', 'strain', 'force', 'contact' /
+&probe name = 'top', place = 0, 1 /
+&probe name = 'across', kind = 'gauge', place = -0.05, 0, 0.05, 0 /
+&probe name = 'left', kind = 'spring', place = -0.04, 0.01 /
 """
 # So many nodes that rows are left out, which falls on a floor and comes off again.
 LANDS = """

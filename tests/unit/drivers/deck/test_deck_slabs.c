@@ -14,7 +14,10 @@
 static const char *const suited[] = {
     RUN GROUND
     "&body shape = 'rectangle', size = 0.08, 0.13, spacing = 5e-3, outline = 'lattice', clearance = 2e-4, "
-    "velocity = 0.3, -10, angle = 20, spin = -7 /\n&void shape = 'disc', centre = 0.01, 0.05, radius = 0.015 /\n",
+    "velocity = 0.3, -10, angle = 20, spin = -7 /\n&void shape = 'disc', centre = 0.01, 0.05, radius = 0.015 /\n"
+    "&probe name = 'top', place = 0, 1 /\n&probe name = 'side', kind = 'spring', place = 1, 0.08 /\n"
+    "&probe name = 'across', kind = 'gauge', place = -0.02, 0, -0.03, 0.06 /\n"
+    "&probe name = 'this', kind = 'spring', number = 700 /\n",
     RUN GROUND "&body shape = 'disc', radius = 0.065, spacing = 4e-3, outline = 'lattice', clearance = 2e-4 /\n"
                "&void shape = 'disc', centre = 0, 0.01, radius = 0.025 /\n",
     RUN GROUND "&body shape = 'ring', radius = 0.06, inner_radius = 0.045, spacing = 3e-3, outline = 'lattice', "
@@ -82,6 +85,15 @@ static void check_facts(const deck *whole, const deck *slabs)
     assert_memory_equal(&f->bodies[0], &g->bodies[0], sizeof f->bodies[0]);
 }
 
+static void check_probes(const deck *whole, const deck *slabs)
+{
+    assert_int_equal(whole->n_probes, slabs->n_probes);
+    for (dem_index k = 0; k < whole->n_probes; k++) {
+        assert_memory_equal(whole->probes[k].number, slabs->probes[k].number, sizeof whole->probes[k].number);
+        assert_memory_equal(whole->probe_places[k], slabs->probe_places[k], sizeof *whole->probe_places);
+    }
+}
+
 /* Own nodes, by their numbers, with all that they have in the whole. */
 static void check_nodes(const dem_lattice *whole, const dem_slab *slab)
 {
@@ -138,6 +150,7 @@ TEST(slabs_have_the_facts_and_the_nodes_of_the_whole)
             assert_int_equal(slabs.lattice.n_nodes, 0);
             assert_string_equal(whole.echo, slabs.echo);
             check_facts(&whole, &slabs);
+            check_probes(&whole, &slabs);
             check_slabs(&whole, &slabs);
         }
     }
@@ -147,8 +160,8 @@ TEST(what_asks_for_more_is_built_as_a_whole)
 {
     static const char *const others[] = {
         RUN "&body shape = 'rectangle', size = 0.05, 0.05, spacing = 5e-3, outline = 'smooth' /\n",
-        RUN "&body shape = 'disc', radius = 0.05, spacing = 5e-3, outline = 'lattice' /\n"
-            "&probe name = 'p', body = 1, place = 0, 0 /\n",
+        RUN "&body shape = 'rectangle', size = 0.05, 0.05, spacing = 5e-3, outline = 'lattice' /\n"
+            "&boundary where = 'side', side = 'left' /\n",
         RUN "&body shape = 'disc', radius = 0.02, spacing = 5e-3, outline = 'lattice' /\n"
             "&body shape = 'disc', radius = 0.02, spacing = 5e-3, outline = 'lattice', position = 0.1, 0 /\n",
         /* A slit cuts the body in two. */
@@ -168,9 +181,12 @@ TEST(what_asks_for_more_is_built_as_a_whole)
 TEST(what_is_wrong_is_reported_as_of_the_whole)
 {
     static const char *const texts[] = {
-        RUN GROUND "&body shape = 'disc', radius = 0.065, spacing = 4e-3, outline = 'lattice' /\n", RUN
+        RUN GROUND "&body shape = 'disc', radius = 0.065, spacing = 4e-3, outline = 'lattice' /\n",
+        RUN
         "&obstacle points = -0.3, -0.02, 0.0008, -0.02, 0.0012, 0.022, 0.0016, -0.02, 0.3, -0.02 /\n"
-        "&body shape = 'rectangle', size = 0.06, 0.06, spacing = 5e-3, outline = 'lattice', position = 0, -0.003 /\n"};
+        "&body shape = 'rectangle', size = 0.06, 0.06, spacing = 5e-3, outline = 'lattice', position = 0, -0.003 /\n",
+        RUN "&body shape = 'disc', radius = 0.05, spacing = 5e-3, outline = 'lattice' /\n"
+            "&probe name = 'a', number = 99999 /\n&probe name = 'b', kind = 'spring', number = 99999 /\n"};
     for (size_t t = 0; t < sizeof texts / sizeof *texts; t++) {
         namelist_errors errors[2] = {{0}};
         const char *path = folder_at(&scratch, "a.nml");

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "harness/slab_cut.h"
 #include "probes.h"
 #include "unit/close.h"
 #include "unit/solids.h"
@@ -61,10 +62,24 @@ typedef struct scene {
     placement bodies[2];
     resolved deck;
     dem_probe *probes;
+    double (*places)[2];
     size_t n;
 } scene;
 
-static void find(scene *s, const char *groups)
+/* In one slab, or in two of the first `first` nodes and the others. */
+static void look(scene *s, dem_index first)
+{
+    CLEANUP(probes_forget) probe_search search;
+    assert_true(probes_begin(&search, s->probes, &s->deck.deck, s->bodies));
+    for (dem_index begin = 0, end = first; begin < s->lattice.n_nodes; begin = end, end = s->lattice.n_nodes) {
+        CLEANUP(dem_slab_free) dem_slab slab = slab_cut(&s->lattice, begin, end);
+        assert_int_equal(slab.n_own, end - begin);
+        probes_look(&search, &slab);
+    }
+    probes_end(&search, s->places, &s->deck.errors);
+}
+
+static void find_in(scene *s, dem_index first, const char *groups)
 {
     char text[1024];
     const double shift[2] = {10.0, 20.0};
@@ -79,13 +94,20 @@ static void find(scene *s, const char *groups)
     s->deck = resolve_clean(text);
     s->n = schema_count(&s->deck.deck, "probe");
     s->probes = calloc(s->n + 1, sizeof *s->probes);
-    assert_non_null(s->probes);
-    assert_true(probes_find(s->probes, &s->deck.deck, &s->lattice, s->bodies, &s->deck.errors));
+    s->places = calloc(s->n + 1, sizeof *s->places);
+    assert_true(s->probes != NULL && s->places != NULL);
+    look(s, first);
+}
+
+static void find(scene *s, const char *groups)
+{
+    find_in(s, 14, groups);
 }
 
 static void drop_scene(scene *s)
 {
     probes_free(s->probes, s->n);
+    free(s->places);
     drop_resolved(&s->deck);
     dem_lattice_free(&s->lattice);
 }
@@ -128,8 +150,7 @@ TEST(the_spring_with_the_nearest_middle_is_taken)
 
 static void expect_place(const scene *s, size_t probe, double x, double y)
 {
-    double at[2];
-    probes_place(at, &s->probes[probe], &s->lattice);
+    const double *at = s->places[probe];
     assert_close(at[0], x, 1e-14 * 20.0);
     assert_close(at[1], y, 1e-14 * 20.0);
 }
@@ -144,6 +165,27 @@ TEST(what_has_two_ends_is_in_the_middle_between_them)
     expect_place(&s, 0, 0.0, sqrt(0.75));
     expect_place(&s, 1, 10.0, 20.0);
     expect_place(&s, 2, 10.0 - 0.5 * sqrt(0.75), 20.0 - 0.75);
+}
+
+/* The middle of the first spring from node 5 of the second block is in the other slab. */
+TEST(slabs_have_what_the_whole_has)
+{
+    static const char groups[] =
+        "&probe name = 'a', number = 5 / &probe name = 'b', place = 0.1, 5, body = 2 / "
+        "&probe name = 'c', kind = 'spring', place = 0.2, 0.4, body = 2 / &probe name = 'd', kind = 'spring', "
+        "number = 20 / &probe name = 'e', kind = 'gauge', number = 2, 13 / "
+        "&probe name = 'f', kind = 'gauge', place = -2, 0, 2, 0 / &probe name = 'g', place = 0, 0 /";
+    CLEANUP(drop_scene) scene whole;
+    find(&whole, groups);
+    for (dem_index first = 1; first < 14; first++) {
+        CLEANUP(drop_scene) scene s;
+        find_in(&s, first, groups);
+        assert_int_equal(s.deck.errors.n, 0);
+        for (size_t k = 0; k < s.n; k++) {
+            assert_memory_equal(s.probes[k].number, whole.probes[k].number, sizeof s.probes[k].number);
+            assert_memory_equal(s.places[k], whole.places[k], sizeof s.places[k]);
+        }
+    }
 }
 
 TEST(what_is_not_there_is_named)
