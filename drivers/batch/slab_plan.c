@@ -4,13 +4,17 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "copies.h"
 #include "rank_group.h"
+
+static const double most_bodies = 100.0; /* of c->slab_nodes: smaller ones are mostly surface, which all ranks have */
 
 /* Bodies that are large enough, so that a rank has a share of them alone. */
 void slab_plan_decide(deck *d, const command *c, double nodes)
 {
-    const bool large = c->ranks != NULL && c->ranks->size > 1 && nodes >= c->slab_nodes;
-    if (large && deck_slabs_suit(&d->groups)) d->slabs.n = c->ranks->size;
+    const double each = nodes / (double)copies_total(&d->groups);
+    const bool large = nodes >= c->slab_nodes && most_bodies * each >= c->slab_nodes;
+    if (c->ranks != NULL && c->ranks->size > 1 && large && deck_slabs_suit(&d->groups)) d->slabs.n = c->ranks->size;
 }
 
 /* Rank 0 has its share, and what it shows and writes of the whole (docs/performance.md). */
@@ -23,7 +27,7 @@ void slab_plan_share_memory(estimate *e, const deck *d)
 dem_status slab_plan_model(dem_model **out, const deck *d, const rank_group *ranks)
 {
     size_t size = 0;
-    void *recipe = deck_slabs_recipe(&size, &d->slabs, d->echo);
+    void *recipe = deck_slabs_recipe(&size, &d->slabs, d->n_bodies, d->echo);
     if (recipe == NULL) return DEM_ERROR_MEMORY;
     const slab_recipe all = {.bytes = recipe,
                              .size = size,

@@ -397,15 +397,20 @@ static dem_status put(builder *b, const double *centre)
     return status == DEM_OK ? face(b) : status;
 }
 
-/* From where the last copy is to where the next one is to be. */
+bool body_put_copy(dem_lattice *lattice, double offset[2], const schema_instance *body, size_t k)
+{
+    const double *position = reals_of(body, "position");
+    double shift[2], way[2];
+    if (!copies_shift(shift, body, k)) return false;
+    for (int c = 0; c < 2; c++) way[c] = position[c] + shift[c] - offset[c];
+    for (int c = 0; c < 2; c++) offset[c] += way[c];
+    dem_lattice_move(lattice, 0.0, way);
+    return true;
+}
+
 static dem_status put_copy(builder *b, size_t k)
 {
-    const double *position = reals_of(b->body, "position");
-    double shift[2], way[2];
-    if (!copies_shift(shift, b->body, k)) return DEM_ERROR_MEMORY;
-    for (int c = 0; c < 2; c++) way[c] = position[c] + shift[c] - b->start.offset[c];
-    for (int c = 0; c < 2; c++) b->start.offset[c] += way[c];
-    dem_lattice_move(&b->lattice, 0.0, way);
+    if (!body_put_copy(&b->lattice, b->start.offset, b->body, k)) return DEM_ERROR_MEMORY;
     const dem_status status = check_place(b, "pitch");
     return status == DEM_OK ? face(b) : status;
 }
@@ -586,6 +591,7 @@ bool body_place_strip(dem_lattice *strip, body_start *start, const body_scene *s
     b.is_strip = true;
     dem_status status = report(&b, dem_lattice_assemble(&b.lattice, &material), "material");
     if (status == DEM_OK) status = put(&b, centre);
+    if (status == DEM_OK && copies_count(b.body) > 1) status = put_copy(&b, 0);
     *strip = b.lattice;
     *start = b.start;
     return status != DEM_ERROR_MEMORY;
@@ -596,6 +602,7 @@ bool body_copy(dem_lattice *lattice, const body_facts *facts, body_start *start,
 {
     builder b = begin(scene, k, errors);
     b.lattice = *lattice;
+    b.is_strip = facts->is_strip;
     b.start.copy = start->copy + 1;
     b.start.angle = start->angle;
     for (int c = 0; c < 2; c++) b.start.offset[c] = start->offset[c];

@@ -46,6 +46,7 @@ typedef struct body_start {
 
 /* What the log says of a body. */
 typedef struct body_facts {
+    bool is_strip;          /* its lattice has but the boundary strip (slab_survey.h) */
     size_t further;         /* copies beside it, of each of which the same holds */
     double mass, true_mass; /* kg; of one; that of its true shape, 0 where none is known: of a lattice file */
     dem_plane plane;        /* of its material; stress where it has none */
@@ -73,6 +74,10 @@ bool body_copy(dem_lattice *lattice, const body_facts *facts, body_start *start,
  * \param centre  of its mass, there, m, about which it spins; NULL: the lattice has all of the body
  * \return as dem_lattice_launch() and dem_lattice_spin() */
 dem_status body_put(dem_lattice *lattice, const schema_instance *body, const double *centre);
+
+/* Moves a body, or a slab of it, from where its last copy is, or where body_put() has put it, to where copy k, from 0,
+ * is to be. `offset` is how far its own coordinates are shifted. False when memory runs out. */
+bool body_put_copy(dem_lattice *lattice, double offset[2], const schema_instance *body, size_t k);
 
 /* What is found of inclusions slab by slab. Zero at first; is_met is to be freed. */
 typedef struct body_inclusions {

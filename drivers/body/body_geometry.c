@@ -10,6 +10,7 @@
 #include "body_outline.h"
 #include "image_file.h"
 #include "material.h"
+#include "shape/shape_slab.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -483,16 +484,17 @@ static former begin(const schema_deck *groups, size_t k, const char *folder, nam
     return f;
 }
 
-dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const schema_deck *groups, size_t k, body_part part,
+dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const schema_deck *groups, size_t k, body_range range,
                               namelist_errors *errors)
 {
     former f = begin(groups, k, "", errors);
     *slab = dem_slab_empty();
     dem_status status = make_shape(&f);
     f.shape.numbered = false;
-    if (status == DEM_OK) status = report(&f, dem_slab_shape(slab, &f.shape, part.number, part.n), f.body->place, "");
+    if (status == DEM_OK)
+        status = report(&f, dem_private_slab_between(slab, &f.shape, range.begin, range.end), f.body->place, "");
     if (status == DEM_OK) status = weigh(&f);
-    if (status == DEM_OK) status = jitter(&f, slab);
+    if (status == DEM_OK && slab->n_own > 0) status = jitter(&f, slab);
     if (status != DEM_OK) dem_slab_free(slab);
     former_free(&f);
     *out = f.geometry;

@@ -30,14 +30,15 @@ typedef struct body_geometry {
 dem_status body_geometry_triangulate(dem_lattice *lattice, body_geometry *out, const schema_deck *groups, size_t k,
                                      const char *folder, namelist_errors *errors);
 
-/* One of the slabs in which a body is triangulated. */
-typedef struct body_part {
-    dem_index number, n; /* 0 <= number < n */
-} body_part;
+/* A slab of a body: the rows whose first nodes have the numbers from `begin` on, before `end`. */
+typedef struct body_range {
+    dem_index begin, end;
+} body_range;
 
 /* The same as body_geometry_triangulate() of a slab of body k, which is neither a mesh nor an image, has a stepped edge
- * and no cracks. Free with dem_slab_free(). */
-dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const schema_deck *groups, size_t k, body_part part,
+ * and no cracks. Where there are no such rows the slab has the numbers of nodes and triangles of the body, and no own
+ * nodes. Free with dem_slab_free(). */
+dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const schema_deck *groups, size_t k, body_range range,
                               namelist_errors *errors);
 
 /* What a fault of an image's lattice may come from: which pixels are material; "" for other shapes. */

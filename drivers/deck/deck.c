@@ -242,20 +242,77 @@ static bool append(deck *d, const dem_lattice *body, namelist_place place, namel
     return status != DEM_ERROR_MEMORY;
 }
 
-/* A body with its copies. `starts` has one for each. */
-static bool set_body(deck *d, body_start *starts, const body_scene *scene, size_t k, namelist_errors *errors)
+/* The bodies, of which `found`, if any, has the strips that stand for them. */
+typedef struct builder {
+    const body_scene *scene;
+    deck_slabs_found *found; /* NULL: there are the bodies themselves */
+    namelist_errors *errors;
+} builder;
+
+/* As the library's model of slabs has it, the strip takes the place of its body. */
+static bool set_first(deck *d, dem_lattice *body, body_start *start, const builder *b, size_t k)
 {
-    const namelist_place place = schema_get(scene->groups, "body", k)->place;
-    const size_t before = errors->n;
+    if (b->found == NULL) return body_build(body, &d->bodies[k], start, b->scene, k, b->errors);
+    slab_body *of_slabs = &d->slabs.bodies[k];
+    d->bodies[k] = b->found->bodies[k];
+    *body = b->found->strips[k];
+    b->found->strips[k] = dem_lattice_empty();
+    const bool good = body_place_strip(body, start, b->scene, k, of_slabs->centre, b->errors);
+    memcpy(of_slabs->shift, start->shift, sizeof of_slabs->shift);
+    return good;
+}
+
+/* A body with its copies. `starts` has one for each. */
+static bool set_body(deck *d, body_start *starts, const builder *b, size_t k)
+{
+    const namelist_place place = schema_get(b->scene->groups, "body", k)->place;
+    const size_t before = b->errors->n;
     dem_lattice body = dem_lattice_empty();
-    if (!body_build(&body, &d->bodies[k], starts, scene, k, errors)) return false;
-    bool good = append(d, &body, place, errors);
-    for (size_t c = 1; c <= d->bodies[k].further && good && errors->n == before; c++) {
+    bool good = set_first(d, &body, starts, b, k) && append(d, &body, place, b->errors);
+    for (size_t c = 1; c <= d->bodies[k].further && good && b->errors->n == before; c++) {
         starts[c] = starts[c - 1];
-        good = body_copy(&body, &d->bodies[k], &starts[c], scene, k, errors) && append(d, &body, place, errors);
+        good =
+            body_copy(&body, &d->bodies[k], &starts[c], b->scene, k, b->errors) && append(d, &body, place, b->errors);
     }
     dem_lattice_free(&body);
     strengths_free(&d->bodies[k].strengths);
+    return good;
+}
+
+static bool build_bodies(deck *d, body_start *starts, placement *places, const builder *b)
+{
+    body_start *next = starts;
+    bool good = true;
+    for (size_t k = 0; k < d->n_bodies && good; k++) {
+        const dem_index first = d->lattice.n_nodes;
+        good = set_body(d, next, b, k);
+        places[k] = (placement){.first = first,
+                                .n_nodes = d->lattice.n_nodes - first,
+                                .angle = next->angle,
+                                .offset = {next->offset[0], next->offset[1]}};
+        next += copies_count(schema_get(b->scene->groups, "body", k));
+    }
+    return good;
+}
+
+/* In place of the lattice the strips of the bodies, which are as good for all checks. */
+static bool take_strips(deck *d, body_start *starts, placement *places, const body_scene *scene)
+{
+    deck_slabs_found found;
+    namelist_errors errors = {0};
+    bool good = deck_slabs_look(&found, &d->slabs, scene->groups);
+    if (good && d->slabs.are_made) good = build_bodies(d, starts, places, &(builder){scene, &found, &errors});
+    d->slabs.are_made = d->slabs.are_made && errors.n == 0;
+    if (good && d->slabs.are_made) {
+        d->facts = found.lattice;
+        found.lattice = (lattice_facts){0};
+        lattice_facts_find_box(&d->facts, &d->lattice);
+    } else {
+        dem_lattice_free(&d->lattice);
+        deck_slabs_free(&d->slabs);
+    }
+    deck_slabs_forget(&found);
+    namelist_errors_free(&errors);
     return good;
 }
 
@@ -295,6 +352,18 @@ static bool find_probes(deck *d, const schema_deck *groups, const placement *bod
     return good;
 }
 
+/* By the numbers that nodes have in the whole. \return NULL when memory runs out */
+static placement *number_nodes(const deck *d, const placement *bodies)
+{
+    placement *whole = calloc(d->n_bodies, sizeof *whole);
+    for (size_t k = 0; k < d->n_bodies && whole != NULL; k++) {
+        whole[k] = bodies[k];
+        whole[k].first = deck_slabs_nodes(&d->groups, d->slabs.bodies, k);
+        whole[k].n_nodes = deck_slabs_nodes(&d->groups, d->slabs.bodies, k + 1) - whole[k].first;
+    }
+    return whole;
+}
+
 static bool set_probes(deck *d, const schema_deck *groups, const placement *bodies, namelist_errors *errors)
 {
     const size_t n = schema_count(groups, "probe");
@@ -304,42 +373,9 @@ static bool set_probes(deck *d, const schema_deck *groups, const placement *bodi
     if (d->probes == NULL || d->probe_places == NULL) return false;
     d->n_probes = (dem_index)n;
     if (!d->slabs.are_made) return find_probes(d, groups, bodies, errors);
-    placement whole = bodies[0];
-    whole.n_nodes = d->slabs.n_nodes;
-    return find_probes(d, groups, &whole, errors);
-}
-
-/* In place of the lattice its strip, which is as good for all checks. */
-static bool look_at_slabs(deck *d, body_start *start, const body_scene *scene)
-{
-    deck_slabs_found found;
-    if (d->slabs.n == 0) return true;
-    if (!deck_slabs_look(&found, &d->slabs, scene)) return false;
-    if (!d->slabs.are_made) {
-        d->slabs.n = 0;
-        return true;
-    }
-    d->lattice = found.strip;
-    d->facts = found.lattice;
-    d->bodies[0] = found.body;
-    *start = found.start;
-    return true;
-}
-
-static bool build_bodies(deck *d, body_start *starts, placement *places, const body_scene *scene,
-                         namelist_errors *errors)
-{
-    body_start *next = starts;
-    bool good = true;
-    for (size_t k = 0; k < d->n_bodies && good; k++) {
-        const dem_index first = d->slabs.are_made ? 0 : d->lattice.n_nodes;
-        good = d->slabs.are_made || set_body(d, next, scene, k, errors);
-        places[k] = (placement){.first = first,
-                                .n_nodes = d->lattice.n_nodes - first,
-                                .angle = next->angle,
-                                .offset = {next->offset[0], next->offset[1]}};
-        next += copies_count(schema_get(scene->groups, "body", k));
-    }
+    placement *whole = number_nodes(d, bodies);
+    const bool good = whole != NULL && find_probes(d, groups, whole, errors);
+    free(whole);
     return good;
 }
 
@@ -357,7 +393,8 @@ static bool set_bodies(deck *d, schema_deck *groups, const char *folder, namelis
     d->bodies = calloc(n + 1, sizeof *d->bodies);
     d->n_bodies = n;
     bool good = starts != NULL && places != NULL && d->bodies != NULL && still != NULL;
-    good = good && look_at_slabs(d, starts, &scene) && build_bodies(d, starts, places, &scene, errors);
+    if (good && d->slabs.n > 0) good = take_strips(d, starts, places, &scene);
+    if (good && !d->slabs.are_made) good = build_bodies(d, starts, places, &(builder){&scene, NULL, errors});
     good = good && check_starts(d, starts, &scene, errors);
     if (good && errors->n == 0) precision_check(groups, &d->lattice, errors);
     if (good && errors->n == 0) good = surfaces_settle(&d->options, groups, &d->lattice, places, errors);
@@ -460,6 +497,7 @@ void deck_free(deck *d)
     dem_lattice_free(&d->lattice);
     lattice_facts_free(&d->facts);
     free(d->bodies);
+    deck_slabs_free(&d->slabs);
     loading_free(d->boundaries, d->n_boundaries);
     free(d->body_friction);
     free(d->path);

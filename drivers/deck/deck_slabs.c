@@ -19,7 +19,7 @@ static bool is_plain(const schema_instance *body)
     static const char *const of_files[] = {"file", "mesh", "mask"};
     for (size_t k = 0; k < sizeof of_files / sizeof *of_files; k++)
         if (schema_is(body, "shape", of_files[k])) return false;
-    return !schema_is(body, "outline", "smooth") && copies_count(body) == 1 && !rigid_keys_ask(body);
+    return !schema_is(body, "outline", "smooth") && !rigid_keys_ask(body);
 }
 
 static bool is_elastic(const schema_deck *groups)
@@ -42,57 +42,185 @@ bool deck_slabs_suit(const schema_deck *groups)
     static const char *const of_the_whole[] = {"crack", "weakness", "boundary"};
     for (size_t k = 0; k < sizeof of_the_whole / sizeof *of_the_whole; k++)
         if (schema_count(groups, of_the_whole[k]) > 0) return false;
-    return schema_count(groups, "body") == 1 && is_plain(schema_get(groups, "body", 0)) && is_elastic(groups) &&
-           schema_real(schema_get(groups, "run", 0), "residual") == 0.0 &&
+    for (size_t k = 0; k < schema_count(groups, "body"); k++)
+        if (!is_plain(schema_get(groups, "body", k))) return false;
+    return is_elastic(groups) && schema_real(schema_get(groups, "run", 0), "residual") == 0.0 &&
            !shows_fragments(schema_get(groups, "output", 0));
 }
 
 /* ---- slabs ---- */
 
-/* Rank 0 looks at all of them, the others make one. */
+/* What slabs are made by. */
 typedef struct maker {
     const schema_deck *groups;
+    const slab_body *bodies; /* [number of &body groups] */
     namelist_errors *errors;
-    dem_index n_nodes; /* of the whole */
-    body_geometry geometry;
-    body_inclusions inclusions;
 } maker;
 
-static dem_status triangulate(maker *m, dem_slab *slab, body_part part)
+/* Assembled, where the body is to be but for its clearance and copies, as it moves there. */
+static dem_status put(dem_slab *slab, body_inclusions *found, const maker *m, size_t k)
 {
-    const dem_status status = body_geometry_slab(slab, &m->geometry, m->groups, 0, part, m->errors);
-    m->n_nodes = slab->n_nodes;
-    m->inclusions.n = m->geometry.n_inclusions;
+    const body_scene scene = {.groups = m->groups};
+    const dem_status status = body_assemble_slab(slab, found, &scene, k, m->errors);
+    if (status != DEM_OK) return status;
+    return body_put(&slab->lattice, schema_get(m->groups, "body", k), m->bodies[k].centre);
+}
+
+/* A slab of one body, which goes from copy to copy. */
+typedef struct piece {
+    size_t k; /* of which body */
+    body_range range;
+    dem_slab slab;
+    size_t next_copy;
+    double offset[2]; /* m, of the body's own coordinates */
+} piece;
+
+static dem_status open_piece(piece *p, const maker *m, size_t k, body_range range)
+{
+    const schema_instance *body = schema_get(m->groups, "body", k);
+    body_geometry geometry;
+    body_inclusions found = {0};
+    *p = (piece){.k = k, .range = range};
+    for (int c = 0; c < 2; c++) p->offset[c] = schema_reals(body, "position")[c];
+    dem_status status = body_geometry_slab(&p->slab, &geometry, m->groups, k, range, m->errors);
+    found.n = geometry.n_inclusions;
+    if (status == DEM_OK && p->slab.n_own > 0) status = put(&p->slab, &found, m, k);
+    if (status == DEM_OK && schema_given(body, "clearance"))
+        dem_lattice_move(&p->slab.lattice, 0.0, m->bodies[k].shift);
+    free(found.is_met);
     return status;
 }
 
-/* Assembled, where the body is to be but for its clearance, as it moves there. */
-static dem_status put(maker *m, dem_slab *slab, const double centre[2])
+static dem_status go_to_copy(piece *p, const schema_instance *body, size_t copy)
 {
-    const body_scene scene = {.groups = m->groups};
-    const dem_status status = body_assemble_slab(slab, &m->inclusions, &scene, 0, m->errors);
-    return status == DEM_OK ? body_put(&slab->lattice, schema_get(m->groups, "body", 0), centre) : status;
+    for (; copies_count(body) > 1 && p->next_copy <= copy; p->next_copy++)
+        if (!body_put_copy(&p->slab.lattice, p->offset, body, p->next_copy)) return DEM_ERROR_MEMORY;
+    return DEM_OK;
 }
 
-/* In its place, by the same steps as a whole body. */
-static dem_status make(dem_slab *out, const slab_place *place, const schema_deck *groups, body_part part,
-                       namelist_errors *errors)
+/* What comes in the whole before a body. */
+typedef struct tally {
+    dem_index nodes, triangles, bodies;
+} tally;
+
+static bool add_rim(dem_slab *out, const dem_slab *more, const tally *before)
 {
-    maker m = {.groups = groups, .errors = errors};
-    dem_status status = triangulate(&m, out, part);
-    if (status == DEM_OK) status = put(&m, out, place->centre);
-    if (schema_given(schema_get(groups, "body", 0), "clearance")) dem_lattice_move(&out->lattice, 0.0, place->shift);
-    free(m.inclusions.is_met);
+    const dem_index n = out->lattice.n_nodes - out->n_own, m = more->lattice.n_nodes - more->n_own;
+    dem_index *rim = realloc(out->rim, (size_t)(n + m + 1) * sizeof *rim);
+    if (rim == NULL) return false;
+    for (dem_index i = 0; i < m; i++) rim[n + i] = before->nodes + more->rim[i];
+    out->rim = rim;
+    return true;
+}
+
+static bool number_body(dem_lattice *l, dem_index first, dem_index number)
+{
+    if (l->body == NULL) l->body = calloc((size_t)l->n_nodes, sizeof *l->body);
+    for (dem_index i = first; i < l->n_nodes && l->body != NULL; i++) l->body[i] = (int32_t)number;
+    return l->body != NULL;
+}
+
+/* Behind what there is: of a body that goes on in the slab after this one nothing comes behind. What is not wanted any
+ * more is taken over. */
+static dem_status add(dem_slab *out, dem_slab *more, const tally *before, bool is_wanted)
+{
+    const dem_index n = out->lattice.n_nodes;
+    dem_status status = DEM_OK;
+    if (!add_rim(out, more, before)) return DEM_ERROR_MEMORY;
+    if (n == 0) {
+        out->first_node = before->nodes + more->first_node;
+        out->first_triangle = before->triangles + more->first_triangle;
+        out->first_own = more->first_own;
+    }
+    if (n == 0 && !is_wanted) {
+        out->lattice = more->lattice;
+        more->lattice = dem_lattice_empty();
+    } else {
+        status = dem_lattice_append(&out->lattice, &more->lattice);
+    }
+    if (status != DEM_OK) return status;
+    out->n_own += more->n_own;
+    return number_body(&out->lattice, n, before->bodies) ? DEM_OK : DEM_ERROR_MEMORY;
+}
+
+/* What the nodes `all` of the whole have of a body that has n nodes behind those before it. */
+static body_range share_of(body_range all, dem_index before, dem_index n)
+{
+    const dem_index begin = all.begin - before, end = all.end - before;
+    return (body_range){begin > 0 ? begin : 0, end < n ? end : n};
+}
+
+static bool is_same(body_range a, body_range b)
+{
+    return a.begin == b.begin && a.end == b.end;
+}
+
+/* All copies of body k, which come next. */
+static dem_status add_body(dem_slab *out, tally *before, const maker *m, size_t k, body_range all)
+{
+    const schema_instance *body = schema_get(m->groups, "body", k);
+    const size_t n_copies = copies_count(body);
+    piece p = {.slab = dem_slab_empty()};
+    dem_status status = DEM_OK;
+    for (size_t copy = 0; copy < n_copies && status == DEM_OK; copy++) {
+        const body_range range = share_of(all, before->nodes, m->bodies[k].n_nodes);
+        const bool has_any = range.begin < range.end;
+        if (has_any && !is_same(range, p.range)) {
+            dem_slab_free(&p.slab);
+            status = open_piece(&p, m, k, range);
+        }
+        if (has_any && status == DEM_OK) status = go_to_copy(&p, body, copy);
+        if (has_any && status == DEM_OK && p.slab.n_own > 0) status = add(out, &p.slab, before, n_copies > 1);
+        before->nodes += m->bodies[k].n_nodes;
+        before->triangles += m->bodies[k].n_triangles;
+        before->bodies++;
+    }
+    dem_slab_free(&p.slab);
+    return status;
+}
+
+dem_index deck_slabs_nodes(const schema_deck *groups, const slab_body *bodies, size_t n)
+{
+    dem_index nodes = 0;
+    for (size_t k = 0; k < n; k++) nodes += bodies[k].n_nodes * (dem_index)copies_count(schema_get(groups, "body", k));
+    return nodes;
+}
+
+static dem_index count_nodes(const maker *m)
+{
+    return deck_slabs_nodes(m->groups, m->bodies, schema_count(m->groups, "body"));
+}
+
+/* Of n nodes. */
+static body_range part_of(dem_index n, dem_index part, dem_index n_parts)
+{
+    return (body_range){part * n / n_parts, (part + 1) * n / n_parts};
+}
+
+/* By the same steps as whole bodies. */
+static dem_status make(dem_slab *out, const maker *m, dem_index part, dem_index n_parts)
+{
+    const body_range all = part_of(count_nodes(m), part, n_parts);
+    dem_status status = DEM_OK;
+    tally before = {0};
+    *out = dem_slab_empty();
+    for (size_t k = 0; k < schema_count(m->groups, "body") && status == DEM_OK; k++)
+        status = add_body(out, &before, m, k, all);
+    out->n_nodes = before.nodes;
+    out->n_triangles = before.triangles;
+    if (status == DEM_OK && out->n_own == 0) status = DEM_ERROR_MODEL; /* there are fewer rows than ranks */
+    if (status != DEM_OK) dem_slab_free(out);
     return status;
 }
 
 dem_status deck_slabs_each(const deck_slabs *slabs, const schema_deck *groups, deck_slabs_visitor *visit, void *visitor)
 {
     namelist_errors errors = {0};
+    const maker m = {groups, slabs->bodies, &errors};
     dem_status status = DEM_OK;
     for (dem_index part = 0; part < slabs->n && status == DEM_OK; part++) {
         dem_slab slab;
-        status = make(&slab, &slabs->place, groups, (body_part){part, slabs->n}, &errors);
+        status = make(&slab, &m, part, slabs->n);
         if (status == DEM_OK) status = visit(visitor, &slab);
         dem_slab_free(&slab);
     }
@@ -107,22 +235,24 @@ static dem_status add_facts(void *facts, const dem_slab *slab)
     return lattice_facts_add(facts, slab) ? DEM_OK : DEM_ERROR_MEMORY;
 }
 
+/* At one body. */
 typedef struct looker {
-    maker maker;
-    deck_slabs_found *found;
+    const maker *maker;
+    size_t k;
+    body_facts *facts;
     slab_survey survey;
-    bool spins;       /* how it moves is not known before its centre of mass is */
-    double moment[2]; /* kg m, sum of masses times places */
-    double centre[2]; /* of mass, m, once all slabs have been seen */
+    body_inclusions inclusions;
+    double moment[2];       /* kg m, sum of masses times places */
+    lattice_facts *at_once; /* NULL: they are found by a second look */
 } looker;
 
 /* Sums of the whole, in the order of its nodes: of them dem_lattice_spin() makes the centre. */
-static void add_mass(looker *k, const dem_slab *slab)
+static void add_mass(looker *l, const dem_slab *slab)
 {
-    const dem_lattice *l = &slab->lattice;
+    const dem_lattice *lattice = &slab->lattice;
     for (dem_index i = slab->first_own; i < slab->first_own + slab->n_own; i++) {
-        for (int c = 0; c < 2; c++) k->moment[c] += l->mass[i] * l->x[2 * i + c];
-        k->found->body.mass += l->mass[i];
+        for (int c = 0; c < 2; c++) l->moment[c] += lattice->mass[i] * lattice->x[2 * i + c];
+        l->facts->mass += lattice->mass[i];
     }
 }
 
@@ -134,23 +264,27 @@ static dem_status note_angle(body_facts *facts, const dem_slab *slab)
     return status;
 }
 
-static dem_status survey(looker *k, dem_slab *slab)
+static dem_status look_at_slab(looker *l, dem_slab *slab)
 {
-    if (!slab_survey_add_strip(&k->survey, slab)) return DEM_ERROR_MEMORY;
-    dem_status status = note_angle(&k->found->body, slab);
-    if (status == DEM_OK) status = put(&k->maker, slab, k->centre);
-    if (status == DEM_OK && !slab_survey_add_parts(&k->survey, slab)) return DEM_ERROR_MEMORY;
-    if (status == DEM_OK) add_mass(k, slab);
-    return status == DEM_OK && !k->spins ? add_facts(&k->found->lattice, slab) : status;
+    if (!slab_survey_add_strip(&l->survey, slab)) return DEM_ERROR_MEMORY;
+    dem_status status = note_angle(l->facts, slab);
+    l->inclusions.n = l->facts->geometry.n_inclusions;
+    if (status == DEM_OK) status = put(slab, &l->inclusions, l->maker, l->k);
+    if (status == DEM_OK && !slab_survey_add_parts(&l->survey, slab)) return DEM_ERROR_MEMORY;
+    if (status == DEM_OK) add_mass(l, slab);
+    return status == DEM_OK && l->at_once != NULL ? add_facts(l->at_once, slab) : status;
 }
 
-static dem_status survey_all(looker *k, dem_index n)
+static dem_status look_at_slabs(looker *l, dem_index n)
 {
+    const maker *m = l->maker;
     dem_status status = DEM_OK;
     for (dem_index part = 0; part < n && status == DEM_OK; part++) {
         dem_slab slab;
-        status = triangulate(&k->maker, &slab, (body_part){part, n});
-        if (status == DEM_OK) status = survey(k, &slab);
+        const body_range range = part_of(m->bodies[l->k].n_nodes, part, n);
+        status = body_geometry_slab(&slab, &l->facts->geometry, m->groups, l->k, range, m->errors);
+        if (status == DEM_OK && slab.n_own > 0) status = look_at_slab(l, &slab);
+        if (status == DEM_OK && slab.n_own == 0 && l->at_once != NULL) status = DEM_ERROR_MODEL; /* for a rank */
         dem_slab_free(&slab);
     }
     return status;
@@ -163,71 +297,116 @@ static bool all_are_met(const body_inclusions *inclusions)
     return true;
 }
 
-static dem_status look_at_all(looker *k, dem_index n)
+static dem_status conclude(looker *l, dem_lattice *strip, slab_body *body)
 {
-    const dem_status status = survey_all(k, n);
-    if (status != DEM_OK) return status;
-    if (!slab_survey_is_one(&k->survey) || !all_are_met(&k->maker.inclusions)) return DEM_ERROR_MODEL;
-    k->found->body.geometry = k->maker.geometry;
-    k->found->body.n_included = k->maker.inclusions.n_triangles;
-    for (int c = 0; c < 2; c++) k->centre[c] = 1.0 / k->found->body.mass * k->moment[c];
-    return DEM_OK;
+    body_facts *f = l->facts;
+    if (!slab_survey_is_one(&l->survey) || !all_are_met(&l->inclusions)) return DEM_ERROR_MODEL;
+    f->is_strip = true;
+    f->further = copies_count(schema_get(l->maker->groups, "body", l->k)) - 1;
+    f->true_mass = f->geometry.mass;
+    f->plane = body_geometry_material(l->maker->groups, l->k).plane;
+    f->n_included = l->inclusions.n_triangles;
+    for (int c = 0; c < 2; c++) body->centre[c] = 1.0 / f->mass * l->moment[c];
+    return slab_survey_take_strip(strip, &l->survey) ? DEM_OK : DEM_ERROR_MEMORY;
 }
 
-static dem_status place(looker *k, const body_scene *scene)
+/* In n slabs. */
+static dem_status look_at_body(deck_slabs_found *out, slab_body *body, const maker *m, size_t k, dem_index n)
 {
-    deck_slabs_found *f = k->found;
-    if (!slab_survey_take_strip(&f->strip, &k->survey)) return DEM_ERROR_MEMORY;
-    if (!body_place_strip(&f->strip, &f->start, scene, 0, k->centre, k->maker.errors)) return DEM_ERROR_MEMORY;
-    lattice_facts_find_box(&f->lattice, &f->strip);
-    f->body.true_mass = f->body.geometry.mass;
-    f->body.plane = body_geometry_material(scene->groups, 0).plane;
-    return k->maker.errors->n == 0 ? DEM_OK : DEM_ERROR_MODEL;
+    looker l = {.maker = m, .k = k, .facts = &out->bodies[k], .at_once = out->at_once ? &out->lattice : NULL};
+    *l.facts = (body_facts){.least_angle = (double)INFINITY};
+    dem_status status = look_at_slabs(&l, n);
+    if (status == DEM_OK) status = conclude(&l, &out->strips[k], body);
+    slab_survey_free(&l.survey);
+    free(l.inclusions.is_met);
+    return status;
 }
 
-static void forget(deck_slabs_found *f)
+static dem_status count(slab_body *body, const maker *m, size_t k)
 {
-    dem_lattice_free(&f->strip);
-    lattice_facts_free(&f->lattice);
-    *f = (deck_slabs_found){0};
+    dem_slab none;
+    body_geometry geometry;
+    const dem_status status = body_geometry_slab(&none, &geometry, m->groups, k, (body_range){0, 0}, m->errors);
+    body->n_nodes = none.n_nodes;
+    body->n_triangles = none.n_triangles;
+    dem_slab_free(&none);
+    return status;
 }
 
-bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const body_scene *scene)
+/* In slabs that are about as large as those of ranks, and the same where there is one body. */
+static dem_status look_at_all(deck_slabs_found *out, deck_slabs *slabs, const maker *m)
 {
+    dem_status status = DEM_OK;
+    for (size_t k = 0; k < out->n && status == DEM_OK; k++) status = count(&slabs->bodies[k], m, k);
+    const dem_index all = count_nodes(m);
+    for (size_t k = 0; k < out->n && status == DEM_OK; k++) {
+        slab_body *body = &slabs->bodies[k];
+        status = look_at_body(out, body, m, k, (body->n_nodes * slabs->n + all - 1) / all);
+    }
+    if (status != DEM_OK || out->at_once) return status;
+    return deck_slabs_each(slabs, m->groups, add_facts, &out->lattice);
+}
+
+/* Sums over nodes are those of a single body, whose motion is known as soon as its slabs are made. */
+static bool needs_one_look(const schema_deck *groups)
+{
+    return copies_total(groups) == 1 && schema_real(schema_get(groups, "body", 0), "spin") == 0.0;
+}
+
+bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const schema_deck *groups)
+{
+    const size_t n = schema_count(groups, "body");
     namelist_errors errors = {0};
-    looker k = {.maker = {.groups = scene->groups, .errors = &errors},
-                .found = out,
-                .spins = schema_real(schema_get(scene->groups, "body", 0), "spin") != 0.0};
-    *out = (deck_slabs_found){.strip = dem_lattice_empty(), .body.least_angle = (double)INFINITY};
-    dem_status status = look_at_all(&k, slabs->n);
-    if (status == DEM_OK) status = place(&k, scene);
-    slabs->n_nodes = k.maker.n_nodes;
-    memcpy(slabs->place.centre, k.centre, sizeof k.centre);
-    memcpy(slabs->place.shift, out->start.shift, sizeof out->start.shift);
-    if (status == DEM_OK && k.spins) status = deck_slabs_each(slabs, scene->groups, add_facts, &out->lattice);
+    *out = (deck_slabs_found){.n = n, .at_once = needs_one_look(groups)};
+    out->bodies = calloc(n + 1, sizeof *out->bodies);
+    out->strips = calloc(n + 1, sizeof *out->strips);
+    slabs->bodies = calloc(n + 1, sizeof *slabs->bodies);
+    const maker m = {groups, slabs->bodies, &errors};
+    const bool good = out->bodies != NULL && out->strips != NULL && slabs->bodies != NULL;
+    for (size_t k = 0; k < n && good; k++) out->strips[k] = dem_lattice_empty();
+    const dem_status status = good ? look_at_all(out, slabs, &m) : DEM_ERROR_MEMORY;
     slabs->are_made = status == DEM_OK;
-    slab_survey_free(&k.survey);
-    free(k.maker.inclusions.is_met);
     namelist_errors_free(&errors);
-    if (status != DEM_OK) forget(out);
     return status != DEM_ERROR_MEMORY;
+}
+
+void deck_slabs_forget(deck_slabs_found *found)
+{
+    for (size_t k = 0; k < found->n && found->strips != NULL; k++) dem_lattice_free(&found->strips[k]);
+    free(found->strips);
+    free(found->bodies);
+    lattice_facts_free(&found->lattice);
+    *found = (deck_slabs_found){0};
+}
+
+void deck_slabs_free(deck_slabs *slabs)
+{
+    free(slabs->bodies);
+    *slabs = (deck_slabs){0};
 }
 
 /* ---- on all ranks ---- */
 
-/* A text follows. All ranks are the same program on machines of one kind. */
+/* What is known of each body, and a text behind them. All ranks are the same program on machines of one kind. */
 typedef struct recipe {
-    slab_place place;
+    size_t n_bodies;
+    slab_body bodies[];
 } recipe;
 
-void *deck_slabs_recipe(size_t *size, const deck_slabs *slabs, const char *echo)
+static size_t head_of(size_t n_bodies)
 {
-    const size_t length = strlen(echo);
-    recipe *r = malloc(sizeof *r + length + 1);
+    return sizeof(recipe) + n_bodies * sizeof(slab_body);
+}
+
+void *deck_slabs_recipe(size_t *size, const deck_slabs *slabs, size_t n_bodies, const char *echo)
+{
+    const size_t length = strlen(echo), head = head_of(n_bodies);
+    recipe *r = malloc(head + length + 1);
     if (r == NULL) return NULL;
-    r->place = slabs->place;
-    memcpy(r + 1, echo, length + 1);
-    *size = sizeof *r + length + 1;
+    r->n_bodies = n_bodies;
+    memcpy(r->bodies, slabs->bodies, n_bodies * sizeof *r->bodies);
+    memcpy((char *)r + head, echo, length + 1);
+    *size = head + length + 1;
     return r;
 }
 
@@ -235,16 +414,16 @@ dem_status deck_slabs_make(void *program, const void *bytes, size_t size, dem_in
                            dem_slab *out)
 {
     const recipe *r = bytes;
-    const char *text = (const char *)(r + 1);
+    const size_t head = head_of(r->n_bodies);
     namelist_errors errors = {0};
     namelist list;
     schema_deck groups = {0};
     (void)program;
-    bool good = namelist_parse(&list, text, size - sizeof *r - 1, &errors);
+    bool good = namelist_parse(&list, (const char *)bytes + head, size - head - 1, &errors);
     if (good) good = schema_resolve(&groups, &list, &errors);
     dem_status status = good ? DEM_OK : DEM_ERROR_MEMORY;
     if (good)
-        status = errors.n == 0 ? make(out, &r->place, &groups, (body_part){part, n_parts}, &errors) : DEM_ERROR_MODEL;
+        status = errors.n == 0 ? make(out, &(maker){&groups, r->bodies, &errors}, part, n_parts) : DEM_ERROR_MODEL;
     schema_free(&groups);
     namelist_free(&list);
     namelist_errors_free(&errors);

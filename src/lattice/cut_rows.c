@@ -334,3 +334,36 @@ dem_status cut_rows_slab(dem_slab *out, const cut_rows *c, dem_index part, dem_i
     free(n.triangles);
     return status;
 }
+
+/* The first row before which there are so many nodes. */
+static dem_index row_behind(const cut_rows *c, const row_counts *n, dem_index nodes)
+{
+    dem_index row = c->whole.first;
+    while (row <= c->whole.last && nodes_before(c, n, row) < nodes) row++;
+    return row;
+}
+
+static dem_status make_between(dem_slab *out, const cut_rows *c, const row_counts *n, dem_index begin, dem_index end)
+{
+    const dem_index first = row_behind(c, n, begin), last = row_behind(c, n, end) - 1;
+    const dem_index n_nodes = nodes_before(c, n, c->whole.last + 1);
+    CHECK(n_nodes > 0, DEM_ERROR_MODEL, "none of %lld nodes is left", (long long)grid_count_nodes(&c->whole));
+    if (first <= last) {
+        const grid own = rows_of(&c->whole, first, last);
+        return make(out, c, n, &own);
+    }
+    *out = dem_slab_empty();
+    out->n_nodes = n_nodes;
+    out->n_triangles = triangles_before(c, n, c->whole.last + 1);
+    return DEM_OK;
+}
+
+dem_status cut_rows_between(dem_slab *out, const cut_rows *c, dem_index begin, dem_index end)
+{
+    row_counts n;
+    dem_status status = count_all(&n, c);
+    if (status == DEM_OK) status = make_between(out, c, &n, begin, end);
+    free(n.nodes);
+    free(n.triangles);
+    return status;
+}

@@ -24,4 +24,9 @@ typedef struct cut_rows {
  *  \return DEM_ERROR_MODEL for more parts than rows with nodes, and where nothing is left; DEM_ERROR_MEMORY */
 dem_status cut_rows_slab(dem_slab *out, const cut_rows *c, dem_index part, dem_index n_parts);
 
+/** Makes the slab of the rows whose first nodes have, of what is left, the numbers from `begin` on, before `end`. Where
+ *  there are none it has but the numbers of nodes and triangles of the whole.
+ *  \return DEM_ERROR_MODEL where nothing is left; DEM_ERROR_MEMORY */
+dem_status cut_rows_between(dem_slab *out, const cut_rows *c, dem_index begin, dem_index end);
+
 #endif

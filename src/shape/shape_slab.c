@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* From a caller's shape to a slab of its lattice (dem/slab.h): rows of the grid of the shape, of which each rank makes
  * its own, and all at some at a time to count what is left of them. */
-#include <dem/slab.h>
+#include "shape/shape_slab.h"
 
 #include <stdlib.h>
 
@@ -55,29 +55,35 @@ static dem_status mark(void *context, dem_lattice *rows, bool *keep)
     return DEM_OK;
 }
 
-static dem_status make(dem_slab *out, cutter *c, const dem_shape *ours, dem_index part, dem_index n_parts)
+/* Which rows: a part, or those of nodes `begin` to `end` where n_parts is 0. */
+typedef struct rows_asked {
+    dem_index part, n_parts, begin, end;
+} rows_asked;
+
+static dem_status make(dem_slab *out, cutter *c, const dem_shape *ours, const rows_asked *asked)
 {
     TRY(shape_input_check_edges(c->shape));
     TRY(shape_input_check_size(ours, shape_find_grid(&c->grid, c->shape)));
     TRY(list_idle(c, ours->n_voids));
-    TRY(cut_rows_slab(out, &(cut_rows){c->grid.rows, mark, c}, part, n_parts));
+    const cut_rows rows = {c->grid.rows, mark, c};
+    if (asked->n_parts > 0)
+        TRY(cut_rows_slab(out, &rows, asked->part, asked->n_parts));
+    else
+        TRY(cut_rows_between(out, &rows, asked->begin, asked->end));
     return check_voids(c, ours);
 }
 
-/* ---- public ---- */
-
-dem_status dem_slab_shape(dem_slab *out, const dem_shape *theirs, dem_index part, dem_index n_parts)
+static dem_status make_asked(dem_slab *out, const dem_shape *theirs, const rows_asked *asked)
 {
     dem_shape ours;
     shape s;
     dem_slab made = dem_slab_empty();
     cutter c = {.shape = &s};
-    TRY(slab_check_out(out, part, n_parts));
     TRY(shape_input_read(&ours, theirs));
     CHECK(ours.edge == DEM_EDGE_STEPPED, DEM_ERROR_ARGUMENT, "smooth edges are made of the whole, not of slabs");
     CHECK(!ours.numbered, DEM_ERROR_ARGUMENT, "triangles are numbered in the whole before it is cut, not in slabs");
     TRY(shape_input_make(&s, &ours));
-    const dem_status status = make(&made, &c, &ours, part, n_parts);
+    const dem_status status = make(&made, &c, &ours, asked);
     free(c.is_idle);
     shape_free(&s);
     if (status == DEM_OK)
@@ -85,4 +91,18 @@ dem_status dem_slab_shape(dem_slab *out, const dem_shape *theirs, dem_index part
     else
         dem_slab_free(&made);
     return status;
+}
+
+/* ---- public ---- */
+
+dem_status dem_slab_shape(dem_slab *out, const dem_shape *theirs, dem_index part, dem_index n_parts)
+{
+    TRY(slab_check_out(out, part, n_parts));
+    return make_asked(out, theirs, &(rows_asked){.part = part, .n_parts = n_parts});
+}
+
+dem_status dem_private_slab_between(dem_slab *out, const dem_shape *theirs, dem_index begin, dem_index end)
+{
+    TRY(slab_check_out(out, 0, 1));
+    return make_asked(out, theirs, &(rows_asked){.begin = begin, .end = end});
 }

@@ -99,6 +99,25 @@ IN_SLABS = """
 &probe name = 'across', kind = 'gauge', place = -0.05, 0, 0.05, 0 /
 &probe name = 'left', kind = 'spring', place = -0.04, 0.01 /
 """
+# A square with a core flies at a disc, which spins on copies of another one: three slabs begin within bodies.
+SEVERAL_IN_SLABS = """
+&run t_end = 1.5e-3 /
+&material name = 'soft', youngs_modulus = 1e6, poissons_ratio = 0.3, density = 1050, friction = 0.4 /
+&material name = 'damped', youngs_modulus = 3e6, poissons_ratio = 0.25, density = 2000, damping_time = 1e-5 /
+&body shape = 'rectangle', size = 0.05, 0.05, spacing = 4e-3, lattice = 'square', jitter = 0.1, position = -0.06, 0.06,
+    angle = 8, velocity = 15, 0, material = 'soft' /
+&inclusion body = 1, shape = 'disc', centre = 0, 0.025, radius = 0.012, material = 'damped' /
+&body shape = 'disc', radius = 0.03, spacing = 4e-3, outline = 'lattice', clearance = 0.042, spin = 60,
+    velocity = 0, -9, material = 'damped' /
+&body shape = 'disc', radius = 0.018, spacing = 4e-3, outline = 'lattice', copies = 3, 1, pitch = 0.04, 1,
+    position = -0.042, 0.0185, velocity = 1, -6, material = 'soft' /
+&obstacle points = -0.2, 0, 0.2, 0, friction = 0.3 /
+&solver checkpoint_steps = 20 /
+&output name = 'free', frame_interval = 2e-4, peak_every = 3, measure = .false.,
+    fields = 'displacement', 'velocity', 'stress', 'strain', 'force', 'contact' /
+&probe name = 'top', body = 2, place = 0, 1 /
+&probe name = 'any', kind = 'gauge', number = 0, 150 /
+"""
 # So many nodes that rows are left out, which falls on a floor and comes off again.
 LANDS = """
 &run t_end = 6e-3 /
@@ -224,6 +243,7 @@ class Runs(unittest.TestCase):
         (self.folder / "touching.nml").write_text(TOUCHING, encoding="ascii")
         (self.folder / "breaking.nml").write_text(BREAKING, encoding="ascii")
         (self.folder / "slabs.nml").write_text(IN_SLABS, encoding="ascii")
+        (self.folder / "several.nml").write_text(SEVERAL_IN_SLABS, encoding="ascii")
         (self.folder / "dropped.nml").write_text(DROPPED, encoding="ascii")
 
     def command(self, n, outdir, *more, deck="free.nml"):
@@ -467,6 +487,16 @@ class InSlabs(Runs):
             self.assertEqual(code, 0, errors)
             self.assertEqual("of slabs" in log, nodes == "1")
             self.assertEqual("resumed" in log, k > 0)
+        self.assert_same("one", "parts")
+
+    def test_files_of_several_bodies_are_those_of_one_process(self):
+        self.assertEqual(self.run_on(0, "one", deck="several.nml")[0], 0)
+        self.assertGreater(min(self.result("one")["events"], self.result("one")["pairs_most"]), 10)
+        for k, n in enumerate((4, 3)):
+            code, log, errors = self.run_on(n, "parts", "--set", f"run.t_end={(k + 1) * 7.5e-4}", "--slab-nodes", "1",
+                                            deck="several.nml")
+            self.assertEqual(code, 0, errors)
+            self.assertIn("of slabs", log)
         self.assert_same("one", "parts")
 
     def test_a_deck_that_does_not_suit_is_built_as_a_whole(self):

@@ -8,6 +8,7 @@
 #include <dem/dem.h>
 
 #include "harness/message.h"
+#include "shape/shape_slab.h"
 
 static const dem_outline disc = {
     .struct_size = sizeof disc, .kind = DEM_OUTLINE_DISC, .centre = {1.0, -2.0}, .radius = 200.0};
@@ -42,6 +43,38 @@ TEST(slabs_of_a_large_shape_follow_each_other_as_in_the_whole)
         next += s.n_own;
     }
     assert_int_equal(next, whole.n_nodes);
+}
+
+/* A row belongs to the range that has its first node. */
+static void check_ranges(const dem_lattice *whole, const dem_shape *shape, dem_index step)
+{
+    dem_index next = 0;
+    for (dem_index begin = 0; begin < whole->n_nodes; begin += step) {
+        CLEANUP(dem_slab_free) dem_slab s = dem_slab_empty();
+        assert_int_equal(dem_private_slab_between(&s, shape, begin, begin + step), DEM_OK);
+        assert_int_equal(s.n_nodes, whole->n_nodes);
+        assert_int_equal(s.n_triangles, whole->n_triangles);
+        if (s.n_own == 0) assert_int_equal(s.lattice.n_nodes, 0);
+        if (s.n_own == 0) continue;
+        assert_int_equal(s.first_node, next);
+        assert_true(s.first_node >= begin && s.first_node < begin + step);
+        assert_memory_equal(s.lattice.x + 2 * s.first_own, whole->x + 2 * next, (size_t)s.n_own * 2 * sizeof(double));
+        next += s.n_own;
+    }
+    assert_int_equal(next, whole->n_nodes);
+}
+
+TEST(slabs_between_nodes_follow_each_other_whatever_the_ranges)
+{
+    dem_shape shape = make_shape();
+    shape.spacing = 16.0;
+    CLEANUP(dem_lattice_free) dem_lattice whole = dem_lattice_empty();
+    CLEANUP(dem_slab_free) dem_slab none = dem_slab_empty();
+    assert_int_equal(dem_shape_lattice(&whole, &shape, NULL), DEM_OK);
+    for (dem_index step = 5; step <= whole.n_nodes + 9; step += step / 2) check_ranges(&whole, &shape, step);
+    assert_int_equal(dem_private_slab_between(&none, &shape, 0, 0), DEM_OK);
+    assert_int_equal(none.n_own, 0);
+    assert_int_equal(none.n_nodes, whole.n_nodes);
 }
 
 static void expect_refusal(const dem_shape *shape, dem_index n_parts, dem_status status, const char *message)

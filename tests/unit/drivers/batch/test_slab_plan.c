@@ -25,6 +25,11 @@ TEST(large_bodies_that_suit_are_made_by_several_ranks)
     CLEANUP(deck_free)
     deck smooth = deck_text_good(RUN "&body shape = 'disc', radius = 0.05, spacing = 1e-2, "
                                      "outline = 'smooth' /\n");
+    CLEANUP(deck_free)
+    deck many = deck_text_good(RUN "&body shape = 'disc', radius = 0.05, spacing = 1e-2, outline = 'lattice', "
+                                   "copies = 40, 5, pitch = 0.2, 0.2 /\n");
+    assert_int_equal(slabs_for(&many, 4, 1999.0), 0); /* fewer than 10 of each */
+    assert_int_equal(slabs_for(&many, 4, 2000.0), 4);
     assert_int_equal(slabs_for(&d, 4, 1000.0), 4);
     assert_int_equal(slabs_for(&d, 4, 999.0), 0);
     assert_int_equal(slabs_for(&d, 1, 1e6), 0);

@@ -45,6 +45,26 @@ static const char *const suited[] = {
     RUN "&material name = 'core', youngs_modulus = 3e7, density = 3000, damping_time = 4e-5 /\n"
         "&body shape = 'rectangle', size = 0.06, 0.08, spacing = 4e-3, lattice = 'square' /\n"
         "&inclusion shape = 'rectangle', centre = 0.0, 0.045, size = 0.02, 0.03, material = 'core' /\n",
+    /* Large and small ones, damped or not. */
+    RUN GROUND "&material name = 'rigid', youngs_modulus = 1e9, density = 4000 /\n"
+               "&body shape = 'disc', radius = 0.03, spacing = 5e-3, outline = 'lattice', clearance = 1e-3, spin = 4, "
+               "position = -0.1, 0.1, material = 'rigid' /\n"
+               "&body shape = 'rectangle', size = 0.1, 0.1, spacing = 5e-3, lattice = 'square', jitter = 0.1, "
+               "clearance = 2e-3, position = 0.1, 0.1, velocity = 1, -3 /\n"
+               "&body shape = 'ring', radius = 0.03, inner_radius = 0.015, spacing = 4e-3, outline = 'lattice', "
+               "position = 0.1, 0.3, angle = 40 /\n"
+               "&void shape = 'disc', body = 2, centre = 0, 0.05, radius = 0.02 /\n"
+               "&inclusion shape = 'disc', body = 1, centre = 0, 0, radius = 0.01, material = 'solid' /\n"
+               "&probe name = 'a', body = 2, place = 0, 0.01 /\n&probe name = 'b', number = 600 /\n"
+               "&probe name = 'c', body = 3, kind = 'spring', place = -0.03, 0 /\n",
+    RUN "&body shape = 'disc', radius = 0.02, spacing = 5e-3, outline = 'lattice', copies = 5, 3, pitch = 0.06, 0.05, "
+        "scatter = 3e-3, seed = 4, jitter = 0.2, spin = -30, position = 0.01, 0.1, velocity = 2, 0 /\n"
+        "&body shape = 'disc', radius = 0.05, spacing = 5e-3, outline = 'lattice', position = -0.2, 0 /\n"
+        "&body shape = 'rectangle', size = 0.05, 0.09, spacing = 4e-3, outline = 'lattice', copies = 2, 1, "
+        "pitch = 0.1, 1, position = 0.3, 0.3 /\n"
+        "&probe name = 'a', body = 2, place = 0, 0.01 /\n",
+    RUN "&body shape = 'disc', radius = 0.03, spacing = 5e-3, outline = 'lattice', copies = 2, 1, pitch = 0.08, 1, "
+        "scatter = 8e-3, seed = 7, velocity = 0, -1 /\n",
 };
 enum { N_SUITED = sizeof suited / sizeof *suited, MOST_SLABS = 5 };
 
@@ -66,23 +86,29 @@ static deck read_in(dem_index n, const char *text)
     return d;
 }
 
-static void check_facts(const deck *whole, const deck *slabs)
+static void check_body(const body_facts *a, const body_facts *b)
 {
-    const body_facts *a = &whole->bodies[0], *b = &slabs->bodies[0];
-    const lattice_facts *f = &whole->facts, *g = &slabs->facts;
     assert_memory_equal(&a->mass, &b->mass, sizeof a->mass);
     assert_memory_equal(&a->true_mass, &b->true_mass, sizeof a->true_mass);
     assert_memory_equal(&a->least_angle, &b->least_angle, sizeof a->least_angle);
     assert_memory_equal(&a->geometry.area, &b->geometry.area, sizeof a->geometry.area);
     assert_int_equal(a->geometry.n_pores, b->geometry.n_pores);
     assert_int_equal(a->n_included, b->n_included);
+    assert_int_equal(a->further, b->further);
     assert_int_equal(a->loose.n + b->loose.n + a->hinges.n + b->hinges.n, 0);
+}
+
+static void check_facts(const deck *whole, const deck *slabs)
+{
+    const lattice_facts *f = &whole->facts, *g = &slabs->facts;
+    assert_int_equal(whole->n_bodies, slabs->n_bodies);
+    for (size_t k = 0; k < whole->n_bodies; k++) check_body(&whole->bodies[k], &slabs->bodies[k]);
     assert_memory_equal(&f->motion, &g->motion, sizeof f->motion);
     assert_memory_equal(f->low, g->low, sizeof f->low);
     assert_memory_equal(f->high, g->high, sizeof f->high);
     assert_memory_equal(&f->damping_time, &g->damping_time, sizeof f->damping_time);
-    assert_int_equal(g->n_bodies, 1);
-    assert_memory_equal(&f->bodies[0], &g->bodies[0], sizeof f->bodies[0]);
+    assert_int_equal(f->n_bodies, g->n_bodies);
+    for (dem_index k = 0; k < f->n_bodies; k++) assert_memory_equal(&f->bodies[k], &g->bodies[k], sizeof f->bodies[k]);
 }
 
 static void check_probes(const deck *whole, const deck *slabs)
@@ -103,6 +129,33 @@ static void check_nodes(const dem_lattice *whole, const dem_slab *slab)
     assert_memory_equal(whole->x + 2 * first, l->x + 2 * own, 2 * n * sizeof *l->x);
     assert_memory_equal(whole->mass + first, l->mass + own, n * sizeof *l->mass);
     assert_memory_equal(whole->velocity + 2 * first, l->velocity + 2 * own, 2 * n * sizeof *l->velocity);
+    for (dem_index i = 0; i < slab->n_own; i++)
+        assert_int_equal(whole->body != NULL ? whole->body[first + i] : 0, l->body[own + i]);
+}
+
+/* Of the rim places and bodies. */
+static void check_rim(const dem_lattice *whole, const dem_slab *slab)
+{
+    const dem_lattice *l = &slab->lattice;
+    for (dem_index r = 0; r < l->n_nodes - slab->n_own; r++) {
+        const dem_index i = r < slab->first_own ? r : r + slab->n_own, number = slab->rim[r];
+        assert_memory_equal(whole->x + 2 * number, l->x + 2 * i, 2 * sizeof *l->x);
+        assert_int_equal(whole->body != NULL ? whole->body[number] : 0, l->body[i]);
+    }
+}
+
+static dem_index number_of(const dem_slab *slab, dem_index i)
+{
+    const dem_index own = i - slab->first_own;
+    if (own >= 0 && own < slab->n_own) return slab->first_node + own;
+    return slab->rim[own < 0 ? i : i - slab->n_own];
+}
+
+static void check_triangles(const dem_lattice *whole, const dem_slab *slab)
+{
+    const dem_lattice *l = &slab->lattice;
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++)
+        assert_int_equal(whole->triangles[3 * slab->first_triangle + k], number_of(slab, l->triangles[k]));
 }
 
 /* Those whose lower end is an own node come behind those of the slabs before. \return how many there are in all */
@@ -115,7 +168,8 @@ static dem_index check_springs(const dem_lattice *whole, const dem_slab *slab, d
         assert_true(before < whole->n_springs);
         assert_memory_equal(whole->stiffness + before, l->stiffness + k, sizeof *l->stiffness);
         assert_memory_equal(whole->rest_length + before, l->rest_length + k, sizeof *l->rest_length);
-        assert_memory_equal(whole->viscosity + before, l->viscosity + k, sizeof *l->viscosity);
+        const double viscosity = l->viscosity != NULL ? l->viscosity[k] : 0.0;
+        assert_memory_equal(whole->viscosity + before, &viscosity, sizeof viscosity);
         before++;
     }
     return before;
@@ -124,7 +178,7 @@ static dem_index check_springs(const dem_lattice *whole, const dem_slab *slab, d
 static void check_slabs(const deck *whole, const deck *slabs)
 {
     size_t size;
-    void *recipe = deck_slabs_recipe(&size, &slabs->slabs, slabs->echo);
+    void *recipe = deck_slabs_recipe(&size, &slabs->slabs, slabs->n_bodies, slabs->echo);
     dem_index n_nodes = 0, n_springs = 0;
     assert_non_null(recipe);
     for (dem_index part = 0; part < slabs->slabs.n; part++) {
@@ -132,6 +186,8 @@ static void check_slabs(const deck *whole, const deck *slabs)
         assert_int_equal(deck_slabs_make(NULL, recipe, size, part, slabs->slabs.n, &slab), DEM_OK);
         assert_int_equal(slab.first_node, n_nodes);
         check_nodes(&whole->lattice, &slab);
+        check_rim(&whole->lattice, &slab);
+        check_triangles(&whole->lattice, &slab);
         n_nodes += slab.n_own;
         n_springs = check_springs(&whole->lattice, &slab, n_springs);
     }
@@ -163,7 +219,13 @@ TEST(what_asks_for_more_is_built_as_a_whole)
         RUN "&body shape = 'rectangle', size = 0.05, 0.05, spacing = 5e-3, outline = 'lattice' /\n"
             "&boundary where = 'side', side = 'left' /\n",
         RUN "&body shape = 'disc', radius = 0.02, spacing = 5e-3, outline = 'lattice' /\n"
-            "&body shape = 'disc', radius = 0.02, spacing = 5e-3, outline = 'lattice', position = 0.1, 0 /\n",
+            "&body shape = 'disc', radius = 0.02, spacing = 5e-3, outline = 'lattice', position = 0.1, 0, "
+            "rigid = .true. /\n",
+        /* Rows of 1, 2 and 3 nodes: none begins in the share of the last rank. */
+        RUN "&body shape = 'polygon', points = 0, 0, 4.1e-3, 7e-3, -4.1e-3, 7e-3, spacing = 4e-3, "
+            "outline = 'lattice' /\n",
+        RUN "&body shape = 'polygon', points = 0, 0, 4.1e-3, 7e-3, -4.1e-3, 7e-3, spacing = 4e-3, "
+            "outline = 'lattice', spin = 1 /\n",
         /* A slit cuts the body in two. */
         RUN "&body shape = 'rectangle', size = 0.05, 0.1, spacing = 5e-3, outline = 'lattice', "
             "disconnected = 'keep' /\n"
