@@ -484,10 +484,10 @@ static former begin(const schema_deck *groups, size_t k, const char *folder, nam
     return f;
 }
 
-dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const schema_deck *groups, size_t k, body_range range,
+dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const body_keys *body, body_range range,
                               namelist_errors *errors)
 {
-    former f = begin(groups, k, "", errors);
+    former f = begin(body->groups, body->k, body->folder, errors);
     *slab = dem_slab_empty();
     dem_status status = make_shape(&f);
     f.shape.numbered = false;

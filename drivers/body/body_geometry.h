@@ -35,10 +35,17 @@ typedef struct body_range {
     dem_index begin, end;
 } body_range;
 
-/* The same as body_geometry_triangulate() of a slab of body k, which is neither a mesh nor an image, has a stepped edge
- * and no cracks. Where there are no such rows the slab has the numbers of nodes and triangles of the body, and no own
- * nodes. Free with dem_slab_free(). */
-dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const schema_deck *groups, size_t k, body_range range,
+/* A body of a deck, from 0, and the folder for its file: see body_geometry_file(). */
+typedef struct body_keys {
+    const schema_deck *groups;
+    size_t k;
+    const char *folder;
+} body_keys;
+
+/* The same as body_geometry_triangulate() of a slab of a body, which is no mesh, has a stepped edge and no cracks.
+ * Where there are no such rows the slab has the numbers of nodes and triangles of the body, and no own nodes. Free with
+ * dem_slab_free(). */
+dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const body_keys *body, body_range range,
                               namelist_errors *errors);
 
 /* What a fault of an image's lattice may come from: which pixels are material; "" for other shapes. */

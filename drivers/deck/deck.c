@@ -300,7 +300,7 @@ static bool take_strips(deck *d, body_start *starts, placement *places, const bo
 {
     deck_slabs_found found;
     namelist_errors errors = {0};
-    bool good = deck_slabs_look(&found, &d->slabs, scene->groups);
+    bool good = deck_slabs_look(&found, &d->slabs, scene);
     if (good && d->slabs.are_made) good = build_bodies(d, starts, places, &(builder){scene, &found, &errors});
     d->slabs.are_made = d->slabs.are_made && errors.n == 0;
     if (good && d->slabs.are_made) {
@@ -338,13 +338,14 @@ static dem_status look_at_probes(void *search, const dem_slab *slab)
 
 static bool find_probes(deck *d, const schema_deck *groups, const placement *bodies, namelist_errors *errors)
 {
+    const body_scene scene = {.groups = groups, .folder = d->folder};
     probe_search s;
     dem_slab whole = dem_slab_empty();
     bool good = probes_begin(&s, d->probes, groups, bodies);
     whole.n_own = d->lattice.n_nodes;
     whole.lattice = d->lattice;
     if (good && d->slabs.are_made)
-        good = deck_slabs_each(&d->slabs, groups, look_at_probes, &s) == DEM_OK;
+        good = deck_slabs_each(&d->slabs, &scene, look_at_probes, &s) == DEM_OK;
     else if (good)
         probes_look(&s, &whole);
     if (good) probes_end(&s, d->probe_places, errors);

@@ -16,7 +16,7 @@
 
 static bool is_plain(const schema_instance *body)
 {
-    static const char *const of_files[] = {"file", "mesh", "mask"};
+    static const char *const of_files[] = {"file", "mesh"};
     for (size_t k = 0; k < sizeof of_files / sizeof *of_files; k++)
         if (schema_is(body, "shape", of_files[k])) return false;
     return !schema_is(body, "outline", "smooth") && !rigid_keys_ask(body);
@@ -53,9 +53,15 @@ bool deck_slabs_suit(const schema_deck *groups)
 /* What slabs are made by. */
 typedef struct maker {
     const schema_deck *groups;
+    const char *folder;      /* of the deck, with its last '/', or "" */
     const slab_body *bodies; /* [number of &body groups] */
     namelist_errors *errors;
 } maker;
+
+static dem_status triangulate(dem_slab *out, body_geometry *geometry, const maker *m, size_t k, body_range range)
+{
+    return body_geometry_slab(out, geometry, &(body_keys){m->groups, k, m->folder}, range, m->errors);
+}
 
 /* Assembled, where the body is to be but for its clearance and copies, as it moves there. */
 static dem_status put(dem_slab *slab, body_inclusions *found, const maker *m, size_t k)
@@ -82,7 +88,7 @@ static dem_status open_piece(piece *p, const maker *m, size_t k, body_range rang
     body_inclusions found = {0};
     *p = (piece){.k = k, .range = range};
     for (int c = 0; c < 2; c++) p->offset[c] = schema_reals(body, "position")[c];
-    dem_status status = body_geometry_slab(&p->slab, &geometry, m->groups, k, range, m->errors);
+    dem_status status = triangulate(&p->slab, &geometry, m, k, range);
     found.n = geometry.n_inclusions;
     if (status == DEM_OK && p->slab.n_own > 0) status = put(&p->slab, &found, m, k);
     if (status == DEM_OK && schema_given(body, "clearance"))
@@ -213,17 +219,23 @@ static dem_status make(dem_slab *out, const maker *m, dem_index part, dem_index 
     return status;
 }
 
-dem_status deck_slabs_each(const deck_slabs *slabs, const schema_deck *groups, deck_slabs_visitor *visit, void *visitor)
+static dem_status make_each(dem_index n, const maker *m, deck_slabs_visitor *visit, void *visitor)
 {
-    namelist_errors errors = {0};
-    const maker m = {groups, slabs->bodies, &errors};
     dem_status status = DEM_OK;
-    for (dem_index part = 0; part < slabs->n && status == DEM_OK; part++) {
+    for (dem_index part = 0; part < n && status == DEM_OK; part++) {
         dem_slab slab;
-        status = make(&slab, &m, part, slabs->n);
+        status = make(&slab, m, part, n);
         if (status == DEM_OK) status = visit(visitor, &slab);
         dem_slab_free(&slab);
     }
+    return status;
+}
+
+dem_status deck_slabs_each(const deck_slabs *slabs, const body_scene *scene, deck_slabs_visitor *visit, void *visitor)
+{
+    namelist_errors errors = {0};
+    const maker m = {scene->groups, scene->folder, slabs->bodies, &errors};
+    const dem_status status = make_each(slabs->n, &m, visit, visitor);
     namelist_errors_free(&errors);
     return status;
 }
@@ -282,7 +294,7 @@ static dem_status look_at_slabs(looker *l, dem_index n)
     for (dem_index part = 0; part < n && status == DEM_OK; part++) {
         dem_slab slab;
         const body_range range = part_of(m->bodies[l->k].n_nodes, part, n);
-        status = body_geometry_slab(&slab, &l->facts->geometry, m->groups, l->k, range, m->errors);
+        status = triangulate(&slab, &l->facts->geometry, m, l->k, range);
         if (status == DEM_OK && slab.n_own > 0) status = look_at_slab(l, &slab);
         if (status == DEM_OK && slab.n_own == 0 && l->at_once != NULL) status = DEM_ERROR_MODEL; /* for a rank */
         dem_slab_free(&slab);
@@ -326,7 +338,7 @@ static dem_status count(slab_body *body, const maker *m, size_t k)
 {
     dem_slab none;
     body_geometry geometry;
-    const dem_status status = body_geometry_slab(&none, &geometry, m->groups, k, (body_range){0, 0}, m->errors);
+    const dem_status status = triangulate(&none, &geometry, m, k, (body_range){0, 0});
     body->n_nodes = none.n_nodes;
     body->n_triangles = none.n_triangles;
     dem_slab_free(&none);
@@ -344,7 +356,7 @@ static dem_status look_at_all(deck_slabs_found *out, deck_slabs *slabs, const ma
         status = look_at_body(out, body, m, k, (body->n_nodes * slabs->n + all - 1) / all);
     }
     if (status != DEM_OK || out->at_once) return status;
-    return deck_slabs_each(slabs, m->groups, add_facts, &out->lattice);
+    return make_each(slabs->n, m, add_facts, &out->lattice);
 }
 
 /* Sums over nodes are those of a single body, whose motion is known as soon as its slabs are made. */
@@ -353,15 +365,16 @@ static bool needs_one_look(const schema_deck *groups)
     return copies_total(groups) == 1 && schema_real(schema_get(groups, "body", 0), "spin") == 0.0;
 }
 
-bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const schema_deck *groups)
+bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const body_scene *scene)
 {
+    const schema_deck *groups = scene->groups;
     const size_t n = schema_count(groups, "body");
     namelist_errors errors = {0};
     *out = (deck_slabs_found){.n = n, .at_once = needs_one_look(groups)};
     out->bodies = calloc(n + 1, sizeof *out->bodies);
     out->strips = calloc(n + 1, sizeof *out->strips);
     slabs->bodies = calloc(n + 1, sizeof *slabs->bodies);
-    const maker m = {groups, slabs->bodies, &errors};
+    const maker m = {groups, scene->folder, slabs->bodies, &errors};
     const bool good = out->bodies != NULL && out->strips != NULL && slabs->bodies != NULL;
     for (size_t k = 0; k < n && good; k++) out->strips[k] = dem_lattice_empty();
     const dem_status status = good ? look_at_all(out, slabs, &m) : DEM_ERROR_MEMORY;
@@ -422,8 +435,9 @@ dem_status deck_slabs_make(void *program, const void *bytes, size_t size, dem_in
     bool good = namelist_parse(&list, (const char *)bytes + head, size - head - 1, &errors);
     if (good) good = schema_resolve(&groups, &list, &errors);
     dem_status status = good ? DEM_OK : DEM_ERROR_MEMORY;
+    if (good) body_drop_unused(&groups);
     if (good)
-        status = errors.n == 0 ? make(out, &(maker){&groups, r->bodies, &errors}, part, n_parts) : DEM_ERROR_MODEL;
+        status = errors.n == 0 ? make(out, &(maker){&groups, "", r->bodies, &errors}, part, n_parts) : DEM_ERROR_MODEL;
     schema_free(&groups);
     namelist_free(&list);
     namelist_errors_free(&errors);

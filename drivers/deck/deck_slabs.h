@@ -38,16 +38,16 @@ typedef struct deck_slabs_found {
     bool at_once;          /* one look at each slab was enough */
 } deck_slabs_found;
 
-/* Looks at the bodies slab by slab, and sets slabs->are_made where nothing is unusual; shifts of bodies are the
- * caller's to set. False when memory runs out. Free with deck_slabs_forget() in any case. */
-bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const schema_deck *groups);
+/* Looks at the bodies slab by slab, by groups and folder of the scene, and sets slabs->are_made where nothing is
+ * unusual; shifts of bodies are the caller's to set. False when memory runs out. Free with deck_slabs_forget() in any
+ * case. */
+bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const body_scene *scene);
 void deck_slabs_forget(deck_slabs_found *found);
 
 /* Shows each slab as its rank will make it, in their order.
  * \return what `visit` does; DEM_ERROR_MEMORY; DEM_ERROR_MODEL if a rank would have no nodes */
 typedef dem_status deck_slabs_visitor(void *visitor, const dem_slab *slab);
-dem_status deck_slabs_each(const deck_slabs *slabs, const schema_deck *groups, deck_slabs_visitor *visit,
-                           void *visitor);
+dem_status deck_slabs_each(const deck_slabs *slabs, const body_scene *scene, deck_slabs_visitor *visit, void *visitor);
 
 /* What rank 0 sends to the others: bytes, malloc'ed; NULL when memory runs out.
  * \param n_bodies  &body groups

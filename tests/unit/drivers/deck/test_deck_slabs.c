@@ -65,7 +65,28 @@ static const char *const suited[] = {
         "&probe name = 'a', body = 2, place = 0, 0.01 /\n",
     RUN "&body shape = 'disc', radius = 0.03, spacing = 5e-3, outline = 'lattice', copies = 2, 1, pitch = 0.08, 1, "
         "scatter = 8e-3, seed = 7, velocity = 0, -1 /\n",
+    RUN GROUND
+    "&body shape = 'mask', file = 'a.pgm', scale = 4e-3, spacing = 5e-3, invert = .true., angle = 15, "
+    "clearance = 1e-3, spin = 2 /\n"
+    "&body shape = 'mask', file = 'a.pgm', scale = 2e-3, spacing = 3e-3, invert = .true., lattice = 'square', "
+    "position = 0.3, 0.2 /\n",
 };
+
+/* A cross in a frame, 40 by 30 pixels, of which the dark ones are material. */
+static void put_image(const char *path)
+{
+    enum { WIDTH = 40, HEIGHT = 30 };
+    char text[16 + WIDTH * HEIGHT] = "P5 40 30 255\n";
+    const size_t head = strlen(text);
+    for (int row = 0; row < HEIGHT; row++)
+        for (int column = 0; column < WIDTH; column++) {
+            const bool frame = row < 6 || row >= HEIGHT - 6 || column < 6 || column >= WIDTH - 6;
+            const bool cross = abs(row - HEIGHT / 2) < 3 || abs(column - WIDTH / 2) < 4;
+            text[head + (size_t)(WIDTH * row + column)] = frame || cross ? 0 : (char)200;
+        }
+    file_put(path, text, head + WIDTH * HEIGHT);
+}
+
 enum { N_SUITED = sizeof suited / sizeof *suited, MOST_SLABS = 5 };
 
 /* In so many slabs; 0: as a whole. */
@@ -198,6 +219,7 @@ static void check_slabs(const deck *whole, const deck *slabs)
 
 TEST(slabs_have_the_facts_and_the_nodes_of_the_whole)
 {
+    put_image(folder_file(&scratch, "a.pgm"));
     for (int k = 0; k < N_SUITED; k++) {
         CLEANUP(deck_free) deck whole = read_in(0, suited[k]);
         for (dem_index n = 1; n <= MOST_SLABS; n++) {
