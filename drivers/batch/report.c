@@ -11,6 +11,7 @@
 
 #include "angle.h"
 #include "ask.h"
+#include "base/peak_source.h"
 #include "edges.h"
 #include "wall_clock.h"
 #include "whole_nodes.h"
@@ -329,14 +330,15 @@ static void print_marks(const report *r, const dem_model *model, dem_index node)
 /* Place at rest. */
 static void print_node_peak(const report *r, const dem_model *model, dem_index node)
 {
-    const dem_node_peak *peak = &dem_peaks_nodes(r->peaks)[node];
+    dem_node_peak peak;
     double x[2], value[2], direction[2];
+    if (dem_private_peaks_pick_nodes(r->peaks, &node, 1, &peak) != DEM_OK) return;
     whole_nodes_place(x, model, node);
-    dem_stress_principal(peak->stress, value, direction);
+    dem_stress_principal(peak.stress, value, direction);
     (void)fprintf(r->log->out,
                   "stressed   node %lld at (%.6g, %.6g) m: von Mises %.4g Pa at %.4e s, principal %+.4g Pa at %.0f "
                   "degrees, %+.4g Pa",
-                  (long long)node, x[0], x[1], peak->von_mises, peak->t, value[0],
+                  (long long)node, x[0], x[1], peak.von_mises, peak.t, value[0],
                   atan2(direction[1], direction[0]) / angle_degree, value[1]);
     print_marks(r, model, node);
     (void)fprintf(r->log->out, "\n");
@@ -344,10 +346,11 @@ static void print_node_peak(const report *r, const dem_model *model, dem_index n
 
 static void print_spring_peak(const report *r, const dem_model *model, dem_index spring)
 {
-    const dem_spring_peak *peak = &dem_peaks_springs(r->peaks)[spring];
+    dem_spring_peak peak;
+    if (dem_private_peaks_pick_springs(r->peaks, &spring, 1, &peak) != DEM_OK) return;
     const whole_spring at = whole_nodes_spring(model, spring);
     (void)fprintf(r->log->out, "strained   spring %lld at (%.6g, %.6g) m: strain %+.4g, force %+.4g N at %.4e s\n",
-                  (long long)spring, at.middle[0], at.middle[1], peak->strain, at.stiffness * peak->strain, peak->t);
+                  (long long)spring, at.middle[0], at.middle[1], peak.strain, at.stiffness * peak.strain, peak.t);
 }
 
 /* Whether bodies have deformed at all. In free flight coordinates are rounded: 1e4 steps of a ring, 100 spacings from

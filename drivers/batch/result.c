@@ -10,6 +10,7 @@
 #include <dem/checkpoint.h>
 
 #include "ask.h"
+#include "base/peak_source.h"
 #include "base/file.h"
 #include "json.h"
 #include "output.h"
@@ -223,12 +224,13 @@ static void write_node_peak(json *j, const report *r, const dem_model *model)
 {
     dem_index node;
     if (dem_peaks_most_stressed_nodes(r->peaks, 1, &node) == 0) return;
-    const dem_node_peak *peak = &dem_peaks_nodes(r->peaks)[node];
+    dem_node_peak peak;
+    if (dem_private_peaks_pick_nodes(r->peaks, &node, 1, &peak) != DEM_OK) return;
     json_open(j, "most_stressed", '{');
     json_integer(j, "node", node);
-    json_real(j, "von_mises", peak->von_mises);
-    json_real(j, "t", peak->t);
-    json_reals(j, "stress", peak->stress, 3);
+    json_real(j, "von_mises", peak.von_mises);
+    json_real(j, "t", peak.t);
+    json_reals(j, "stress", peak.stress, 3);
     json_truth(j, "stepped_edge", report_is_stepped(r, model, node));
     json_real(j, "touches", report_touched(r, node) > 0 ? (double)(report_touched(r, node) - 1) : (double)NAN);
     json_close(j, '}');
@@ -238,8 +240,9 @@ static void write_spring_peak(json *j, const report *r)
 {
     dem_index spring;
     if (dem_peaks_most_strained_springs(r->peaks, 1, &spring) == 0) return;
-    const dem_spring_peak *peak = &dem_peaks_springs(r->peaks)[spring];
-    write_extreme(j, "most_strained", peak->strain, spring, peak->t);
+    dem_spring_peak peak;
+    if (dem_private_peaks_pick_springs(r->peaks, &spring, 1, &peak) != DEM_OK) return;
+    write_extreme(j, "most_strained", peak.strain, spring, peak.t);
 }
 
 /* Of contact of bodies with each other and with themselves. */

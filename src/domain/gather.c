@@ -149,7 +149,7 @@ static dem_status allocate_piece(const collection *c, unsigned char **piece)
     return DEM_OK;
 }
 
-dem_status gather_chunks(const ranks *r, const gather_items *items, size_t size, const void *from, gather_taker *take,
+dem_status gather_chunks(const ranks *r, const gather_items *items, size_t size, const void *from, rows_taker *take,
                          void *context)
 {
     collection c = {.ranks = r, .items = items, .size = size, .from = from};

@@ -4,6 +4,7 @@
 #define DEM_DOMAIN_GATHER_H
 
 #include "base/ranks.h"
+#include "base/rows_taker.h"
 #include "domain/domain.h"
 
 /** The nodes, springs or triangles that a rank has. */
@@ -39,15 +40,12 @@ static inline gather_items gather_triangles(const domain *d, const dem_lattice *
  *  \return DEM_ERROR_MEMORY, on all ranks */
 dem_status gather_rows(const ranks *r, const gather_items *items, size_t size, const void *from, void *whole);
 
-/** Takes n rows of the whole, from row `first` on, which are lost afterwards. */
-typedef dem_status gather_taker(void *context, dem_index first, dem_index n, const void *rows);
-
 /** Hands them to a function of rank 0 instead, some rows after the other, so that nobody needs memory for all.
  *  Collective.
  *  \param take  on rank 0; not called elsewhere. Once it fails it is not called again
  *  \return its failure, and DEM_ERROR_MEMORY, on all ranks */
 enum { GATHER_CHUNK = 1 << 16 }; /* rows that are handed over at once, and of messages; the last may be fewer */
-dem_status gather_chunks(const ranks *r, const gather_items *items, size_t size, const void *from, gather_taker *take,
+dem_status gather_chunks(const ranks *r, const gather_items *items, size_t size, const void *from, rows_taker *take,
                          void *context);
 
 /** The other way round: gives each rank the rows of what it has, owned or not. Collective.

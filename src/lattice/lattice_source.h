@@ -9,6 +9,8 @@
 
 #include <dem/dem.h>
 
+#include "base/rows_taker.h"
+
 typedef struct lattice_source {
     const dem_lattice *lattice; /* its counts, and the arrays that are here */
     const dem_model *whole;     /* of which ranks have the arrays; NULL: all are here */
@@ -18,16 +20,12 @@ typedef struct lattice_source {
  *  more of a model than its public headers. They are exported for dem_batch; no other program may call them. */
 DEM_API lattice_source dem_private_lattice_source(const dem_model *model);
 
-/** Takes n items of an array, from item `first` on, which are lost afterwards. It asks ranks for nothing, as they take
- *  part in what hands items over. */
-typedef dem_status source_taker(void *context, dem_index first, dem_index n, const void *items);
-
 /** Hands an array over, so many items after the other, so that nobody needs memory for all; nothing of one that the
  *  lattice does not have. On rank 0 where ranks have parts, while the others wait for what it asks of them.
  *  \param member  offset of the array's pointer in a dem_lattice
  *  \return DEM_ERROR_MEMORY, and the failure of `take`, which is not called again then */
 enum { LATTICE_SOURCE_CHUNK = 1 << 16 };
-dem_status dem_private_lattice_visit(const lattice_source *from, size_t member, source_taker *take, void *context);
+dem_status dem_private_lattice_visit(const lattice_source *from, size_t member, rows_taker *take, void *context);
 
 /** Whether there is such an array. */
 bool dem_private_lattice_has(const lattice_source *from, size_t member);

@@ -39,39 +39,13 @@ bool dem_private_lattice_has(const lattice_source *from, size_t member)
     return v.is_away || v.items != NULL;
 }
 
-dem_status dem_private_lattice_visit(const lattice_source *from, size_t member, source_taker *take, void *context)
+dem_status dem_private_lattice_visit(const lattice_source *from, size_t member, rows_taker *take, void *context)
 {
     const view v = view_of(from, member);
     if (v.is_away) return from->whole->ask_array(from->whole, v.number, take, context);
     for (dem_index first = 0; first < v.n && v.items != NULL; first += LATTICE_SOURCE_CHUNK) {
         const dem_index left = v.n - first, n = left < LATTICE_SOURCE_CHUNK ? left : LATTICE_SOURCE_CHUNK;
         TRY(take(context, first, n, v.items + (size_t)first * v.size));
-    }
-    return DEM_OK;
-}
-
-/* What is wanted of an array. */
-typedef struct wanted {
-    size_t size;
-    const dem_index *list; /* [n] NULL: all items */
-    dem_index n;
-    char *out;
-} wanted;
-
-static dem_status take_all(void *context, dem_index first, dem_index n, const void *items)
-{
-    const wanted *w = context;
-    memcpy(w->out + (size_t)first * w->size, items, (size_t)n * w->size);
-    return DEM_OK;
-}
-
-static dem_status take_listed(void *context, dem_index first, dem_index n, const void *items)
-{
-    const wanted *w = context;
-    for (dem_index k = 0; k < w->n; k++) {
-        const dem_index at = w->list[k] - first;
-        if (at >= 0 && at < n)
-            memcpy(w->out + (size_t)k * w->size, (const char *)items + (size_t)at * w->size, w->size);
     }
     return DEM_OK;
 }
@@ -84,8 +58,8 @@ dem_status dem_private_lattice_open(source_array *out, const lattice_source *fro
     out->gathered = malloc((size_t)v.n * v.size + 1);
     CHECK_MEMORY(out->gathered);
     out->items = out->gathered;
-    wanted all = {.size = v.size, .out = out->gathered};
-    return dem_private_lattice_visit(from, member, take_all, &all);
+    rows_copy all = {v.size, out->gathered};
+    return dem_private_lattice_visit(from, member, rows_taker_copy, &all);
 }
 
 void dem_private_lattice_close(source_array *a)
@@ -98,8 +72,8 @@ dem_status dem_private_lattice_pick(const lattice_source *from, size_t member, c
                                     void *out)
 {
     const view v = view_of(from, member);
-    wanted listed = {.size = v.size, .list = list, .n = n, .out = out};
-    if (v.is_away) return dem_private_lattice_visit(from, member, take_listed, &listed);
+    rows_pick listed = {v.size, list, n, out};
+    if (v.is_away) return dem_private_lattice_visit(from, member, rows_taker_pick, &listed);
     for (dem_index k = 0; k < n; k++)
         memcpy((char *)out + (size_t)k * v.size, v.items + (size_t)list[k] * v.size, v.size);
     return DEM_OK;

@@ -20,7 +20,7 @@
 /** Hands over an array of the lattice of which ranks have the parts (whole_of_parts_visit()), on rank 0, which has the
  *  others take part in it.
  *  \param array  its number in lattice_arrays */
-typedef dem_status model_array_asker(const dem_model *whole, int array, source_taker *take, void *context);
+typedef dem_status model_array_asker(const dem_model *whole, int array, rows_taker *take, void *context);
 
 struct dem_model {
     const ranks *ranks;           /* that share it */

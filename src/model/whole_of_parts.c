@@ -82,7 +82,7 @@ static dem_index *number_corners(const dem_model *part, const dem_index *corner,
 }
 
 static dem_status visit_corners(const dem_model *part, const lattice_array *a, const gather_items *items,
-                                source_taker *take, void *context)
+                                rows_taker *take, void *context)
 {
     const dem_index *corner = lattice_array_of(&part->lattice, a);
     dem_index *number = number_corners(part, corner, (size_t)(items->n * items->n_corners));
@@ -95,7 +95,7 @@ static dem_status visit_corners(const dem_model *part, const lattice_array *a, c
 
 _Static_assert((int)LATTICE_SOURCE_CHUNK == (int)GATHER_CHUNK, "pieces come as they are gathered");
 
-dem_status whole_of_parts_visit(const dem_model *part, int array, source_taker *take, void *context)
+dem_status whole_of_parts_visit(const dem_model *part, int array, rows_taker *take, void *context)
 {
     const lattice_array *a = &lattice_arrays[array];
     const gather_items items = items_of(part, a->of);

@@ -17,6 +17,6 @@ dem_status whole_of_parts_create(dem_model **out, dem_model *part, model_array_a
 /** Hands array number `array` of lattice_arrays to a function of rank 0, piece by piece. Collective.
  *  \param take  on rank 0; NULL elsewhere
  *  \return as gather_chunks() */
-dem_status whole_of_parts_visit(const dem_model *part, int array, source_taker *take, void *context);
+dem_status whole_of_parts_visit(const dem_model *part, int array, rows_taker *take, void *context);
 
 #endif

@@ -296,16 +296,16 @@ dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simul
 /* ---- the end ---- */
 
 /* The array is written once; all frames have the offset 0. */
-dem_status frames_write_constant(const frames *f, const hdf5_file *file, const frames_constant *constant,
-                                 const double *values)
+dem_status frames_create_constant(const frames *f, const hdf5_file *file, const frames_constant *constant,
+                                  hdf5_rows *rows, char name[FRAMES_NAME])
 {
-    char name[96], offset[96];
+    char offset[FRAMES_NAME];
     const hsize_t width = (hsize_t)constant->components;
     const dem_index count = strcmp(constant->set, "PointData") == 0 ? f->n_nodes : f->n_springs;
-    (void)snprintf(name, sizeof name, GRID "%s/%s", constant->set, constant->name);
+    (void)snprintf(name, FRAMES_NAME, GRID "%s/%s", constant->set, constant->name);
     (void)snprintf(offset, sizeof offset, STEPS "/%sOffsets/%s", constant->set, constant->name);
-    const hdf5_rows rows = {name, constant->kind, width > 1 ? 2 : 1, {width}, 0, f->deflate};
-    TRY(hdf5_write(file, rows, (hsize_t)count, values));
+    *rows = (hdf5_rows){name, constant->kind, width > 1 ? 2 : 1, {width}, LATTICE_SOURCE_CHUNK, f->deflate};
+    TRY(hdf5_create_for(file, rows, (hsize_t)count));
     return share_offset(file, offset, FRAME_OF_NONE);
 }
 

@@ -32,10 +32,12 @@ hsize_t frames_bytes(const frames *f);
  *  f->n. Arrays in stripes have been written, and mapped, before. */
 dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simulation *simulation);
 
-/** Adds an array that is the same in all frames, to a file made by frames_create().
- *  \param values  [number of nodes or springs][components] */
-dem_status frames_write_constant(const frames *f, const hdf5_file *file, const frames_constant *constant,
-                                 const double *values);
+/** Adds an array that is the same in all frames, to a file made by frames_create(). Its rows are to be appended, one
+ *  for each node or spring, LATTICE_SOURCE_CHUNK at a time, doubles.
+ *  \param[out] rows  have the name `name` */
+enum { FRAMES_NAME = 96 };
+dem_status frames_create_constant(const frames *f, const hdf5_file *file, const frames_constant *constant,
+                                  hdf5_rows *rows, char name[FRAMES_NAME]);
 
 /** Copies frames of another file; in this one they begin at frame span.at. What a file of an older version does not
  *  have is made from what is broken. Arrays in stripes are left out. */

@@ -2,9 +2,10 @@
 /* The peaks of a run in its file (docs/output.md, /most_stressed), written once, when the run is finished: arrays of
  * nodes and springs that are the same in all frames, and lists of the most stressed nodes and springs, the largest
  * first. Peaks are kept as one entry for each node or spring, the file has a column for each of their numbers. They are
- * found in simulation/peaks.c. */
+ * found in simulation/peaks.c, and may be those of ranks. */
 #include "output/peaks_file.h"
 
+#include "base/peak_source.h"
 #include "base/status.h"
 
 #include <stdlib.h>
@@ -12,36 +13,79 @@
 
 /* ---- arrays ---- */
 
-/* Columns are gathered in the scratch of the frames, one after another. */
-static dem_status write_nodes(const hdf5_file *file, const dem_node_peak *peaks, const frames *f)
+enum { COLUMNS = 3 };
+
+/* Columns that are being written, each of which has a row for an entry. */
+typedef struct columns {
+    const hdf5_file *file;
+    int n;
+    hdf5_rows rows[COLUMNS];
+    char names[COLUMNS][FRAMES_NAME];
+    void (*fill)(double *out, int column, const void *entries, dem_index n); /* rows of entries */
+    double *scratch;                                                         /* of a chunk of one column */
+} columns;
+
+/* Values are von Mises stresses, times, and VTK's tensors. */
+static void fill_node_column(double *out, int column, const void *entries, dem_index n)
 {
-    const frames_constant size = {"PointData", "peak_von_mises", f->real, 1};
-    const frames_constant time = {"PointData", "peak_von_mises_time", HDF5_F64, 1};
-    const frames_constant stress = {"PointData", "peak_stress", f->real, 6};
-    for (dem_index i = 0; i < f->n_nodes; i++) f->scratch[i] = peaks[i].von_mises;
-    TRY(frames_write_constant(f, file, &size, f->scratch));
-    for (dem_index i = 0; i < f->n_nodes; i++) f->scratch[i] = peaks[i].t;
-    TRY(frames_write_constant(f, file, &time, f->scratch));
-    for (dem_index i = 0; i < f->n_nodes; i++) memcpy(f->stress + 3 * i, peaks[i].stress, sizeof peaks[i].stress);
-    frame_arrays_spread_stress(f->scratch, f->n_nodes, f->stress);
-    return frames_write_constant(f, file, &stress, f->scratch);
+    const dem_node_peak *peak = entries;
+    for (dem_index k = 0; k < n && column == 0; k++) out[k] = peak[k].von_mises;
+    for (dem_index k = 0; k < n && column == 1; k++) out[k] = peak[k].t;
+    for (dem_index k = 0; k < n && column == 2; k++) frame_arrays_spread_stress(out + 6 * k, 1, peak[k].stress);
 }
 
 /* The strain of the largest size, with its sign, and when that was. */
-static dem_status write_springs(const hdf5_file *file, const dem_spring_peak *peaks, const frames *f)
+static void fill_spring_column(double *out, int column, const void *entries, dem_index n)
 {
-    const frames_constant strain = {"CellData", "peak_strain", f->real, 1};
-    const frames_constant time = {"CellData", "peak_strain_time", HDF5_F64, 1};
-    for (dem_index k = 0; k < f->n_springs; k++) f->scratch[k] = peaks[k].strain;
-    TRY(frames_write_constant(f, file, &strain, f->scratch));
-    for (dem_index k = 0; k < f->n_springs; k++) f->scratch[k] = peaks[k].t;
-    return frames_write_constant(f, file, &time, f->scratch);
+    const dem_spring_peak *peak = entries;
+    for (dem_index k = 0; k < n; k++) out[k] = column == 0 ? peak[k].strain : peak[k].t;
+}
+
+static dem_status append_columns(void *context, dem_index first, dem_index n, const void *entries)
+{
+    const columns *c = context;
+    for (int k = 0; k < c->n; k++) {
+        c->fill(c->scratch, k, entries, n);
+        TRY(hdf5_append(c->file, &c->rows[k], (hsize_t)first, (hsize_t)n, c->scratch));
+    }
+    return DEM_OK;
+}
+
+static dem_status create_columns(columns *c, const frames *f, const frames_constant *list)
+{
+    for (int k = 0; k < c->n; k++) TRY(frames_create_constant(f, c->file, &list[k], &c->rows[k], c->names[k]));
+    return DEM_OK;
+}
+
+static dem_status write_nodes(columns c, const dem_peaks *peaks, const frames *f)
+{
+    const frames_constant list[] = {{"PointData", "peak_von_mises", f->real, 1},
+                                    {"PointData", "peak_von_mises_time", HDF5_F64, 1},
+                                    {"PointData", "peak_stress", f->real, 6}};
+    c.n = 3;
+    c.fill = fill_node_column;
+    TRY(create_columns(&c, f, list));
+    return dem_private_peaks_visit_nodes(peaks, append_columns, &c);
+}
+
+static dem_status write_springs(columns c, const dem_peaks *peaks, const frames *f)
+{
+    const frames_constant list[] = {{"CellData", "peak_strain", f->real, 1},
+                                    {"CellData", "peak_strain_time", HDF5_F64, 1}};
+    c.n = 2;
+    c.fill = fill_spring_column;
+    TRY(create_columns(&c, f, list));
+    return dem_private_peaks_visit_springs(peaks, append_columns, &c);
 }
 
 dem_status peaks_file_write_arrays(const hdf5_file *file, const peaks_report *report, const frames *f)
 {
-    TRY(write_nodes(file, dem_peaks_nodes(report->peaks), f));
-    return write_springs(file, dem_peaks_springs(report->peaks), f);
+    columns c = {.file = file, .scratch = malloc(6 * LATTICE_SOURCE_CHUNK * sizeof *c.scratch)};
+    CHECK_MEMORY(c.scratch);
+    dem_status status = write_nodes(c, report->peaks, f);
+    if (status == DEM_OK) status = write_springs(c, report->peaks, f);
+    free(c.scratch);
+    return status;
 }
 
 /* ---- lists ---- */
@@ -59,20 +103,32 @@ static dem_status write_numbers(const hdf5_file *file, const char *name, dem_ind
     return hdf5_write(file, (hdf5_rows){name, HDF5_I64, 1, {0}, 0, 0}, (hsize_t)n, numbers);
 }
 
-/* `list` gets the numbers of the nodes, the largest stress first; then each column follows this order. */
+/* The numbers of the nodes, the largest stress first; each column follows this order. */
+static dem_status write_node_rows(const hdf5_file *file, const peaks_report *r, const rows_pick *picked, double *column)
+{
+    const dem_index n = picked->n;
+    const dem_node_peak *peak = picked->out;
+    TRY(write_numbers(file, "/most_stressed/nodes/node", n, picked->list));
+    TRY(dem_private_lattice_pick(&r->lattice, offsetof(dem_lattice, x), picked->list, n, column));
+    TRY(write_column(file, "/most_stressed/nodes/x", n, 2, column));
+    for (dem_index k = 0; k < n; k++) column[k] = peak[k].t;
+    TRY(write_column(file, "/most_stressed/nodes/t", n, 1, column));
+    for (dem_index k = 0; k < n; k++) column[k] = peak[k].von_mises;
+    TRY(write_column(file, "/most_stressed/nodes/von_mises", n, 1, column));
+    for (dem_index k = 0; k < n; k++) memcpy(column + 3 * k, peak[k].stress, 3 * sizeof *column);
+    return write_column(file, "/most_stressed/nodes/stress", n, 3, column);
+}
+
 static dem_status write_node_list(const hdf5_file *file, const peaks_report *r, dem_index *list, double *column)
 {
     const dem_index n = dem_peaks_most_stressed_nodes(r->peaks, r->most, list);
-    const dem_node_peak *peaks = dem_peaks_nodes(r->peaks);
-    TRY(write_numbers(file, "/most_stressed/nodes/node", n, list));
-    TRY(dem_private_lattice_pick(&r->lattice, offsetof(dem_lattice, x), list, n, column));
-    TRY(write_column(file, "/most_stressed/nodes/x", n, 2, column));
-    for (dem_index k = 0; k < n; k++) column[k] = peaks[list[k]].t;
-    TRY(write_column(file, "/most_stressed/nodes/t", n, 1, column));
-    for (dem_index k = 0; k < n; k++) column[k] = peaks[list[k]].von_mises;
-    TRY(write_column(file, "/most_stressed/nodes/von_mises", n, 1, column));
-    for (dem_index k = 0; k < n; k++) memcpy(column + 3 * k, peaks[list[k]].stress, 3 * sizeof *column);
-    return write_column(file, "/most_stressed/nodes/stress", n, 3, column);
+    dem_node_peak *peak = malloc((size_t)(n + 1) * sizeof *peak);
+    CHECK_MEMORY(peak);
+    const rows_pick picked = {sizeof *peak, list, n, peak};
+    dem_status status = dem_private_peaks_pick_nodes(r->peaks, list, n, peak);
+    if (status == DEM_OK) status = write_node_rows(file, r, &picked, column);
+    free(peak);
+    return status;
 }
 
 /* The place of a spring is its middle at rest. */
@@ -90,28 +146,34 @@ static dem_status find_middles(const peaks_report *r, const dem_index *list, dem
     return status;
 }
 
-/* The stiffness times the strain. */
-static dem_status find_forces(const peaks_report *r, const dem_index *list, dem_index n, double *force)
+/* The force is the stiffness times the strain. */
+static dem_status write_spring_rows(const hdf5_file *file, const peaks_report *r, const rows_pick *picked,
+                                    double *column)
 {
-    const dem_spring_peak *peaks = dem_peaks_springs(r->peaks);
-    TRY(dem_private_lattice_pick(&r->lattice, offsetof(dem_lattice, stiffness), list, n, force));
-    for (dem_index k = 0; k < n; k++) force[k] = peaks[list[k]].strain * force[k];
-    return DEM_OK;
+    const dem_index n = picked->n;
+    const dem_spring_peak *peak = picked->out;
+    TRY(write_numbers(file, "/most_stressed/springs/spring", n, picked->list));
+    TRY(find_middles(r, picked->list, n, column));
+    TRY(write_column(file, "/most_stressed/springs/x", n, 2, column));
+    for (dem_index k = 0; k < n; k++) column[k] = peak[k].t;
+    TRY(write_column(file, "/most_stressed/springs/t", n, 1, column));
+    for (dem_index k = 0; k < n; k++) column[k] = peak[k].strain;
+    TRY(write_column(file, "/most_stressed/springs/strain", n, 1, column));
+    TRY(dem_private_lattice_pick(&r->lattice, offsetof(dem_lattice, stiffness), picked->list, n, column));
+    for (dem_index k = 0; k < n; k++) column[k] = peak[k].strain * column[k];
+    return write_column(file, "/most_stressed/springs/force", n, 1, column);
 }
 
 static dem_status write_spring_list(const hdf5_file *file, const peaks_report *r, dem_index *list, double *column)
 {
     const dem_index n = dem_peaks_most_strained_springs(r->peaks, r->most, list);
-    const dem_spring_peak *peaks = dem_peaks_springs(r->peaks);
-    TRY(write_numbers(file, "/most_stressed/springs/spring", n, list));
-    TRY(find_middles(r, list, n, column));
-    TRY(write_column(file, "/most_stressed/springs/x", n, 2, column));
-    for (dem_index k = 0; k < n; k++) column[k] = peaks[list[k]].t;
-    TRY(write_column(file, "/most_stressed/springs/t", n, 1, column));
-    for (dem_index k = 0; k < n; k++) column[k] = peaks[list[k]].strain;
-    TRY(write_column(file, "/most_stressed/springs/strain", n, 1, column));
-    TRY(find_forces(r, list, n, column));
-    return write_column(file, "/most_stressed/springs/force", n, 1, column);
+    dem_spring_peak *peak = malloc((size_t)(n + 1) * sizeof *peak);
+    CHECK_MEMORY(peak);
+    const rows_pick picked = {sizeof *peak, list, n, peak};
+    dem_status status = dem_private_peaks_pick_springs(r->peaks, list, n, peak);
+    if (status == DEM_OK) status = write_spring_rows(file, r, &picked, column);
+    free(peak);
+    return status;
 }
 
 /* Room for as many as are asked for, or as there are; a column has three components at most. */

@@ -36,16 +36,39 @@ dem_status leader_peaks_look(const dem_simulation *whole, dem_peaks *peaks)
     return pass(l, RANK_CALL_PEAKS_LOOK, shared_peaks_number(&l->peaks, peaks));
 }
 
-dem_status leader_peaks_bring_nodes(const dem_simulation *whole, dem_peaks *peaks)
+static dem_status visit(const dem_simulation *whole, const dem_peaks *peaks, rank_call_kind what, rows_taker *take,
+                        void *context)
 {
     led_run *l = whole->leads;
-    return pass(l, RANK_CALL_PEAKS_NODES, shared_peaks_number(&l->peaks, peaks));
+    l->peaks.take = take;
+    l->peaks.context = context;
+    return pass(l, what, shared_peaks_number(&l->peaks, peaks));
 }
 
-dem_status leader_peaks_bring_springs(const dem_simulation *whole, dem_peaks *peaks)
+dem_status leader_peaks_visit_nodes(const dem_simulation *whole, const dem_peaks *peaks, rows_taker *take,
+                                    void *context)
 {
-    led_run *l = whole->leads;
-    return pass(l, RANK_CALL_PEAKS_SPRINGS, shared_peaks_number(&l->peaks, peaks));
+    return visit(whole, peaks, RANK_CALL_PEAKS_NODES, take, context);
+}
+
+dem_status leader_peaks_visit_springs(const dem_simulation *whole, const dem_peaks *peaks, rows_taker *take,
+                                      void *context)
+{
+    return visit(whole, peaks, RANK_CALL_PEAKS_SPRINGS, take, context);
+}
+
+dem_status leader_peaks_bring_nodes(dem_peaks *peaks)
+{
+    TRY(peaks_make_node_room(peaks));
+    rows_copy all = {sizeof *peaks->nodes, peaks->nodes};
+    return leader_peaks_visit_nodes(peaks->away, peaks, rows_taker_copy, &all);
+}
+
+dem_status leader_peaks_bring_springs(dem_peaks *peaks)
+{
+    TRY(peaks_make_spring_room(peaks));
+    rows_copy all = {sizeof *peaks->springs, peaks->springs};
+    return leader_peaks_visit_springs(peaks->away, peaks, rows_taker_copy, &all);
 }
 
 void leader_peaks_forget(const dem_simulation *whole, const dem_peaks *peaks)
@@ -55,13 +78,12 @@ void leader_peaks_forget(const dem_simulation *whole, const dem_peaks *peaks)
 }
 
 /* Those of nodes and of springs. */
-static dem_status bring(led_run *l, int k)
+static dem_status bring(dem_peaks *whole)
 {
-    dem_peaks *whole = l->peaks.whole[k];
     if (whole == NULL || !whole->are_away) return DEM_OK;
     peaks_give_up(whole);
-    dem_status status = pass(l, RANK_CALL_PEAKS_NODES, k);
-    if (status == DEM_OK) status = pass(l, RANK_CALL_PEAKS_SPRINGS, k);
+    dem_status status = leader_peaks_bring_nodes(whole);
+    if (status == DEM_OK) status = leader_peaks_bring_springs(whole);
     if (status == DEM_OK)
         whole->are_away = false;
     else
@@ -72,6 +94,6 @@ static dem_status bring(led_run *l, int k)
 /* Before the parts end. */
 dem_status leader_peaks_bring_all(led_run *l)
 {
-    for (int k = 0; k < OBSERVERS_MOST; k++) TRY(bring(l, k));
+    for (int k = 0; k < OBSERVERS_MOST; k++) TRY(bring(l->peaks.whole[k]));
     return DEM_OK;
 }

@@ -8,10 +8,17 @@
 /** All parts look for larger peaks; from then on they have them, and the program's are given up. */
 dem_status leader_peaks_look(const dem_simulation *whole, dem_peaks *peaks);
 
-/** Brings copies of the peaks that the parts have, to where there is room for them, or room is made; and tells them
- *  that nobody wants theirs. */
-dem_status leader_peaks_bring_nodes(const dem_simulation *whole, dem_peaks *peaks);
-dem_status leader_peaks_bring_springs(const dem_simulation *whole, dem_peaks *peaks);
+/** Hands over the peaks that the parts have.  \return as gather_chunks() */
+dem_status leader_peaks_visit_nodes(const dem_simulation *whole, const dem_peaks *peaks, rows_taker *take,
+                                    void *context);
+dem_status leader_peaks_visit_springs(const dem_simulation *whole, const dem_peaks *peaks, rows_taker *take,
+                                      void *context);
+
+/** Copies them to the program's, where room is made.  \return as before, and DEM_ERROR_MEMORY */
+dem_status leader_peaks_bring_nodes(dem_peaks *peaks);
+dem_status leader_peaks_bring_springs(dem_peaks *peaks);
+
+/** Tells the parts that nobody wants theirs. */
 void leader_peaks_forget(const dem_simulation *whole, const dem_peaks *peaks);
 
 /** Brings all that are away, before the parts end. */

@@ -516,7 +516,7 @@ void dem_private_shares(const dem_simulation *whole, double *least, double *most
 }
 
 /* Rank 0 has the others take part in it. */
-static dem_status ask_array(const dem_model *whole, int array, source_taker *take, void *context)
+static dem_status ask_array(const dem_model *whole, int array, rows_taker *take, void *context)
 {
     (void)rank_call_send(whole->part->ranks, (rank_call){.kind = RANK_CALL_ARRAY, .number = array});
     return whole_of_parts_visit(whole->part, array, take, context);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Peaks as a program has them: an observer that looks for larger ones at every so-many-th accepted step, and puts them
  * into checkpoints. In a run that ranks make they look (shared_peaks.c), and the entries are here while a checkpoint or
- * the program has a use for them. Files of peaks are in src/output/peaks_file.c. */
+ * the program has a use for them; it gets some of them, and the largest, by peak_source.c. Files of peaks are in
+ * src/output/peaks_file.c. */
 #include "simulation/peaks.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "base/checkpoint_entries.h"
@@ -12,7 +12,7 @@
 #include "base/struct_size.h"
 #include "simulation/leader_peaks.h"
 
-typedef dem_status bring(const dem_simulation *whole, dem_peaks *peaks);
+typedef dem_status bring(dem_peaks *peaks);
 
 /* Copies from the ranks that have them, as the program asks for them, which knows nothing of ranks: of nodes, in the
  * place of those of springs, or the other way round. */
@@ -21,7 +21,7 @@ static const dem_peaks *brought(const dem_peaks *peaks, bool is_there, bring *of
     dem_peaks *p = (dem_peaks *)(uintptr_t)peaks;
     if (!p->are_away || is_there) return p;
     peaks_give_up(p);
-    if (of_one_kind(p->away, p) != DEM_OK) peaks_give_up(p);
+    if (of_one_kind(p) != DEM_OK) peaks_give_up(p);
     return p;
 }
 
@@ -77,19 +77,13 @@ static dem_status pass(dem_peaks *p, const checkpoint_entries_way *way)
 }
 
 /* From the ranks that have them to the checkpoint, and nowhere else. */
-static dem_status bring_into(dem_peaks *p, dem_checkpoint *checkpoint)
+static dem_status bring_into(const dem_peaks *p, dem_checkpoint *checkpoint)
 {
-    void *of_nodes, *of_springs;
-    TRY(checkpoint_entries_make(checkpoint, entry_nodes, (size_t)p->n_nodes * sizeof *p->nodes, &of_nodes));
-    TRY(checkpoint_entries_make(checkpoint, entry_springs, (size_t)p->n_springs * sizeof *p->springs, &of_springs));
-    peaks_give_up(p);
-    p->nodes = of_nodes;
-    p->springs = of_springs;
-    dem_status status = leader_peaks_bring_nodes(p->away, p);
-    if (status == DEM_OK) status = leader_peaks_bring_springs(p->away, p);
-    p->nodes = NULL;
-    p->springs = NULL;
-    return status;
+    rows_copy of_nodes = {.size = sizeof *p->nodes}, of_springs = {.size = sizeof *p->springs};
+    TRY(checkpoint_entries_make(checkpoint, entry_nodes, (size_t)p->n_nodes * of_nodes.size, &of_nodes.out));
+    TRY(checkpoint_entries_make(checkpoint, entry_springs, (size_t)p->n_springs * of_springs.size, &of_springs.out));
+    TRY(leader_peaks_visit_nodes(p->away, p, rows_taker_copy, &of_nodes));
+    return leader_peaks_visit_springs(p->away, p, rows_taker_copy, &of_springs);
 }
 
 /* The observer's checkpoint. */
@@ -100,36 +94,6 @@ static dem_status remember(void *context, const dem_simulation *simulation, dem_
     (void)simulation;
     TRY(checkpoint_entries_pass(&way, entry_every, &p->every, sizeof p->every));
     return p->are_away ? bring_into(p, checkpoint) : pass(p, &way);
-}
-
-/* ---- the largest ---- */
-
-/* Sizes of entries by their number. */
-typedef double (*size_of)(const dem_peaks *p, dem_index k);
-
-static double node_size(const dem_peaks *p, dem_index i)
-{
-    return p->nodes[i].von_mises;
-}
-
-static double spring_size(const dem_peaks *p, dem_index k)
-{
-    return fabs(p->springs[k].strain);
-}
-
-/* The n largest of `count`, those of equal size in the order of their numbers, by insertion into a list that descends.
- * Entries of size 0 have no peak. With n small this is one pass over all. */
-static dem_index rank(const dem_peaks *p, size_of size, dem_index count, dem_index n, dem_index *list)
-{
-    dem_index filled = 0;
-    for (dem_index k = 0; k < count; k++) {
-        if (!(size(p, k) > 0.0) || n <= 0) continue;
-        if (filled == n && size(p, k) <= size(p, list[n - 1])) continue;
-        dem_index q = filled < n ? filled++ : n - 1;
-        for (; q > 0 && size(p, list[q - 1]) < size(p, k); q--) list[q] = list[q - 1];
-        list[q] = k;
-    }
-    return filled;
 }
 
 /* ---- public ---- */
@@ -194,14 +158,4 @@ const dem_node_peak *dem_peaks_nodes(const dem_peaks *peaks)
 const dem_spring_peak *dem_peaks_springs(const dem_peaks *peaks)
 {
     return with_springs(peaks)->springs;
-}
-
-dem_index dem_peaks_most_stressed_nodes(const dem_peaks *peaks, dem_index n, dem_index *nodes)
-{
-    return rank(with_nodes(peaks), node_size, peaks->n_nodes, n, nodes);
-}
-
-dem_index dem_peaks_most_strained_springs(const dem_peaks *peaks, dem_index n, dem_index *list)
-{
-    return rank(with_springs(peaks), spring_size, peaks->n_springs, n, list);
 }

@@ -23,21 +23,15 @@ static dem_status take(const dem_model *m, const dem_peaks *whole, dem_peaks *pa
     return gather_back(m->ranks, &of_springs, sizeof *part->springs, is_root ? whole->springs : NULL, part->springs);
 }
 
-/* The other way round, to where there is room for them, or room is made. */
-static dem_status bring_nodes(const dem_model *m, dem_peaks *whole, const dem_peaks *part)
+/* The other way round, to whom rank 0 has named. */
+static dem_status hand_over(const shared_peaks *s, const dem_model *m, const dem_peaks *part, bool of_nodes)
 {
-    const gather_items of_nodes = gather_nodes(m->domain);
-    const bool is_root = whole != NULL;
-    TRY(reduce_status(m->ranks, is_root ? peaks_make_node_room(whole) : DEM_OK, 0.0));
-    return gather_rows(m->ranks, &of_nodes, sizeof *part->nodes, part->nodes, is_root ? whole->nodes : NULL);
-}
-
-static dem_status bring_springs(const dem_model *m, dem_peaks *whole, const dem_peaks *part)
-{
-    const gather_items of_springs = gather_springs(m->domain, &m->lattice);
-    const bool is_root = whole != NULL;
-    TRY(reduce_status(m->ranks, is_root ? peaks_make_spring_room(whole) : DEM_OK, 0.0));
-    return gather_rows(m->ranks, &of_springs, sizeof *part->springs, part->springs, is_root ? whole->springs : NULL);
+    if (of_nodes) {
+        const gather_items items = gather_nodes(m->domain);
+        return gather_chunks(m->ranks, &items, sizeof *part->nodes, part->nodes, s->take, s->context);
+    }
+    const gather_items items = gather_springs(m->domain, &m->lattice);
+    return gather_chunks(m->ranks, &items, sizeof *part->springs, part->springs, s->take, s->context);
 }
 
 /* All ranks have peaks afterwards, or none. */
@@ -57,16 +51,16 @@ static dem_status begin(shared_peaks *s, const dem_model *m, int k)
 dem_status shared_peaks_answer(shared_peaks *s, const dem_simulation *part, const rank_call *what)
 {
     const dem_model *m = part->model;
-    dem_peaks *whole = s->whole[what->number], **own = &s->part[what->number];
+    dem_peaks *own = s->part[what->number];
     switch (what->kind) {
     case RANK_CALL_PEAKS_TAKE:
         return begin(s, m, (int)what->number);
     case RANK_CALL_PEAKS_NODES:
-        return bring_nodes(m, whole, *own);
+        return hand_over(s, m, own, true);
     case RANK_CALL_PEAKS_SPRINGS:
-        return bring_springs(m, whole, *own);
+        return hand_over(s, m, own, false);
     default:
-        return reduce_status(m->ranks, peaks_look(*own, part), 0.0);
+        return reduce_status(m->ranks, peaks_look(own, part), 0.0);
     }
 }
 

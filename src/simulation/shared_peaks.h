@@ -4,6 +4,7 @@
 #ifndef DEM_SIMULATION_SHARED_PEAKS_H
 #define DEM_SIMULATION_SHARED_PEAKS_H
 
+#include "base/rows_taker.h"
 #include "simulation/peaks.h"
 #include "simulation/rank_call.h"
 
@@ -11,6 +12,8 @@
 typedef struct shared_peaks {
     dem_peaks *whole[OBSERVERS_MOST]; /* the program's, on rank 0; NULL: none */
     dem_peaks *part[OBSERVERS_MOST];  /* of the part; NULL: none yet */
+    rows_taker *take;                 /* of what the call in hand hands over, on rank 0, */
+    void *context;                    /* and its argument */
 } shared_peaks;
 
 /** The number of the program's peaks; -1: they have none. On rank 0. */

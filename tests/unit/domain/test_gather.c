@@ -93,7 +93,7 @@ static dem_status take_one_piece(void *context, dem_index first, dem_index n, co
 /* What fails on rank 0 fails on all. */
 static bool pass_pieces(const ranks *r, const gather_items *items, const unsigned char *rows, many *m)
 {
-    gather_taker *first = r->rank == 0 ? take_piece : NULL, *second = r->rank == 0 ? take_one_piece : NULL;
+    rows_taker *first = r->rank == 0 ? take_piece : NULL, *second = r->rank == 0 ? take_one_piece : NULL;
     return gather_chunks(r, items, SIZE, rows, first, m) == DEM_OK &&
            gather_chunks(r, items, SIZE, rows, second, m) == DEM_ERROR_IO;
 }

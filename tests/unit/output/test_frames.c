@@ -337,8 +337,12 @@ TEST(a_constant_is_in_all_frames)
     reader *f = shoot(0, 0);
     const hsize_t n = (hsize_t)f->frames.n_nodes, m = (hsize_t)f->frames.n_springs;
     for (hsize_t k = 0; k < 2 * n || k < m; k++) f->frames.scratch[k] = (double)k;
-    for (int c = 0; c < 2; c++)
-        assert_ok(frames_write_constant(&f->frames, &f->stored.file, &constants[c], f->frames.scratch));
+    for (int c = 0; c < 2; c++) {
+        char name[FRAMES_NAME];
+        hdf5_rows rows;
+        assert_ok(frames_create_constant(&f->frames, &f->stored.file, &constants[c], &rows, name));
+        assert_ok(hdf5_append(&f->stored.file, &rows, 0, c == 0 ? n : m, f->frames.scratch));
+    }
     assert_close(stored_values(&f->stored, "/VTKHDF/PointData/peak", n, 2, 8)[2 * n - 1], (double)(2 * n - 1), 0.0);
     assert_close(stored_values(&f->stored, "/VTKHDF/CellData/time", m, 1, 4)[m - 1], (double)(m - 1), 0.0);
     const double *offset = stored_values(&f->stored, "/VTKHDF/Steps/PointDataOffsets/peak", 2, 1, 8);

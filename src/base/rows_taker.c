@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "base/rows_taker.h"
+
+#include <string.h>
+
+dem_status rows_taker_copy(void *copy, dem_index first, dem_index n, const void *rows)
+{
+    const rows_copy *c = copy;
+    memcpy((char *)c->out + (size_t)first * c->size, rows, (size_t)n * c->size);
+    return DEM_OK;
+}
+
+dem_status rows_taker_pick(void *pick, dem_index first, dem_index n, const void *rows)
+{
+    const rows_pick *p = pick;
+    for (dem_index k = 0; k < p->n; k++) {
+        const dem_index at = p->list[k] - first;
+        if (at >= 0 && at < n)
+            memcpy((char *)p->out + (size_t)k * p->size, (const char *)rows + (size_t)at * p->size, p->size);
+    }
+    return DEM_OK;
+}

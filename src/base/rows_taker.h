@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rows that are handed over some after the other, in their order, so that nobody needs memory for all. */
+#ifndef DEM_BASE_ROWS_TAKER_H
+#define DEM_BASE_ROWS_TAKER_H
+
+#include <stddef.h>
+
+#include <dem/dem.h>
+
+/** Takes n rows, from row `first` on, which are lost afterwards. It asks other ranks for nothing, as they may be taking
+ *  part in what hands rows over.
+ *  \return a failure ends the handing over, and is its result */
+typedef dem_status rows_taker(void *context, dem_index first, dem_index n, const void *rows);
+
+/** What rows_taker_copy() takes: all. */
+typedef struct rows_copy {
+    size_t size; /* bytes of a row */
+    void *out;   /* [rows][size] */
+} rows_copy;
+
+dem_status rows_taker_copy(void *copy, dem_index first, dem_index n, const void *rows);
+
+/** What rows_taker_pick() takes: some. */
+typedef struct rows_pick {
+    size_t size; /* bytes of a row */
+    const dem_index *list;
+    dem_index n; /* in the list */
+    void *out;   /* [n][size] */
+} rows_pick;
+
+dem_status rows_taker_pick(void *pick, dem_index first, dem_index n, const void *rows);
+
+#endif
