@@ -295,6 +295,98 @@ static bool build_bodies(deck *d, body_start *starts, placement *places, const b
     return good;
 }
 
+/* ---- what is looked for in the lattice ---- */
+
+/* All nodes as one slab; of those that are made in slabs there is but the number. */
+static dem_slab view(const deck *d)
+{
+    dem_slab whole = dem_slab_empty();
+    if (d->slabs.are_made) {
+        whole.n_nodes = deck_slabs_nodes(&d->groups, d->slabs.bodies, d->n_bodies);
+    } else {
+        whole.n_nodes = whole.n_own = d->lattice.n_nodes;
+        whole.lattice = d->lattice;
+    }
+    return whole;
+}
+
+/* Returns false when memory runs out. */
+static bool look_at_all(const deck *d, deck_slabs_visitor *look, void *search)
+{
+    const body_scene scene = {.groups = &d->groups, .folder = d->folder};
+    const dem_slab whole = view(d);
+    if (d->slabs.are_made) return deck_slabs_each(&d->slabs, &scene, look, search) == DEM_OK;
+    return look(search, &whole) == DEM_OK;
+}
+
+/* By the numbers that nodes have in the whole. \return NULL when memory runs out; to be freed */
+static placement *number_nodes(const deck *d, const placement *places)
+{
+    placement *whole = calloc(d->n_bodies + 1, sizeof *whole);
+    for (size_t k = 0; k < d->n_bodies && whole != NULL; k++) {
+        whole[k] = places[k];
+        if (!d->slabs.are_made) continue;
+        whole[k].first = deck_slabs_nodes(&d->groups, d->slabs.bodies, k);
+        whole[k].n_nodes = deck_slabs_nodes(&d->groups, d->slabs.bodies, k + 1) - whole[k].first;
+    }
+    return whole;
+}
+
+static dem_status look_at_probes(void *search, const dem_slab *slab)
+{
+    probes_look(search, slab);
+    return DEM_OK;
+}
+
+static bool find_probes(deck *d, const placement *bodies, namelist_errors *errors)
+{
+    probe_search s;
+    const bool good = probes_begin(&s, d->probes, &d->groups, bodies) && look_at_all(d, look_at_probes, &s);
+    if (good) probes_end(&s, d->probe_places, errors);
+    probes_forget(&s);
+    return good;
+}
+
+static bool set_probes(deck *d, const placement *places, namelist_errors *errors)
+{
+    const size_t n = schema_count(&d->groups, "probe");
+    if (n == 0) return true;
+    placement *bodies = number_nodes(d, places);
+    d->probes = calloc(n, sizeof *d->probes);
+    d->probe_places = calloc(n, sizeof *d->probe_places);
+    d->n_probes = d->probes != NULL ? (dem_index)n : 0;
+    const bool good = bodies != NULL && d->probes != NULL && d->probe_places != NULL && find_probes(d, bodies, errors);
+    free(bodies);
+    return good;
+}
+
+static dem_status look_at_boundaries(void *search, const dem_slab *slab)
+{
+    return loading_look(search, slab) ? DEM_OK : DEM_ERROR_MEMORY;
+}
+
+static bool find_boundaries(deck *d, const placement *bodies, const placement *places, namelist_errors *errors)
+{
+    const dem_slab whole = view(d);
+    loading_search s;
+    const bool good = loading_begin(&s, &d->groups, bodies, &d->lattice, places) &&
+                      look_at_all(d, look_at_boundaries, &s) &&
+                      loading_end(&d->boundaries, &d->n_boundaries, &s, &whole, errors);
+    loading_forget(&s);
+    return good;
+}
+
+static bool set_boundaries(deck *d, const placement *places, namelist_errors *errors)
+{
+    if (schema_count(&d->groups, "boundary") == 0) return true;
+    placement *bodies = number_nodes(d, places);
+    const bool good = bodies != NULL && find_boundaries(d, bodies, places, errors);
+    free(bodies);
+    return good;
+}
+
+/* ---- bodies together ---- */
+
 /* In place of the lattice the strips of the bodies, which are as good for all checks. */
 static bool take_strips(deck *d, body_start *starts, placement *places, const body_scene *scene)
 {
@@ -302,13 +394,18 @@ static bool take_strips(deck *d, body_start *starts, placement *places, const bo
     namelist_errors errors = {0};
     bool good = deck_slabs_look(&found, &d->slabs, scene);
     if (good && d->slabs.are_made) good = build_bodies(d, starts, places, &(builder){scene, &found, &errors});
+    if (good && d->slabs.are_made && errors.n == 0) good = set_boundaries(d, places, &errors);
     d->slabs.are_made = d->slabs.are_made && errors.n == 0;
     if (good && d->slabs.are_made) {
         d->facts = found.lattice;
         found.lattice = (lattice_facts){0};
         lattice_facts_find_box(&d->facts, &d->lattice);
+        good = deck_slabs_hold(&d->slabs, d->boundaries, d->n_boundaries);
     } else {
         dem_lattice_free(&d->lattice);
+        loading_free(d->boundaries, d->n_boundaries);
+        d->boundaries = NULL;
+        d->n_boundaries = 0;
         deck_slabs_free(&d->slabs);
     }
     deck_slabs_forget(&found);
@@ -330,56 +427,6 @@ static bool check_starts(const deck *d, const body_start *starts, const body_sce
     return true;
 }
 
-static dem_status look_at_probes(void *search, const dem_slab *slab)
-{
-    probes_look(search, slab);
-    return DEM_OK;
-}
-
-static bool find_probes(deck *d, const schema_deck *groups, const placement *bodies, namelist_errors *errors)
-{
-    const body_scene scene = {.groups = groups, .folder = d->folder};
-    probe_search s;
-    dem_slab whole = dem_slab_empty();
-    bool good = probes_begin(&s, d->probes, groups, bodies);
-    whole.n_own = d->lattice.n_nodes;
-    whole.lattice = d->lattice;
-    if (good && d->slabs.are_made)
-        good = deck_slabs_each(&d->slabs, &scene, look_at_probes, &s) == DEM_OK;
-    else if (good)
-        probes_look(&s, &whole);
-    if (good) probes_end(&s, d->probe_places, errors);
-    probes_forget(&s);
-    return good;
-}
-
-/* By the numbers that nodes have in the whole. \return NULL when memory runs out */
-static placement *number_nodes(const deck *d, const placement *bodies)
-{
-    placement *whole = calloc(d->n_bodies, sizeof *whole);
-    for (size_t k = 0; k < d->n_bodies && whole != NULL; k++) {
-        whole[k] = bodies[k];
-        whole[k].first = deck_slabs_nodes(&d->groups, d->slabs.bodies, k);
-        whole[k].n_nodes = deck_slabs_nodes(&d->groups, d->slabs.bodies, k + 1) - whole[k].first;
-    }
-    return whole;
-}
-
-static bool set_probes(deck *d, const schema_deck *groups, const placement *bodies, namelist_errors *errors)
-{
-    const size_t n = schema_count(groups, "probe");
-    if (n == 0) return true;
-    d->probes = calloc(n, sizeof *d->probes);
-    d->probe_places = calloc(n, sizeof *d->probe_places);
-    if (d->probes == NULL || d->probe_places == NULL) return false;
-    d->n_probes = (dem_index)n;
-    if (!d->slabs.are_made) return find_probes(d, groups, bodies, errors);
-    placement *whole = number_nodes(d, bodies);
-    const bool good = whole != NULL && find_probes(d, groups, whole, errors);
-    free(whole);
-    return good;
-}
-
 static bool set_bodies(deck *d, schema_deck *groups, const char *folder, namelist_errors *errors)
 {
     dem_obstacle *still = obstacles_still(d->obstacles, d->n_obstacles);
@@ -399,9 +446,9 @@ static bool set_bodies(deck *d, schema_deck *groups, const char *folder, namelis
     good = good && check_starts(d, starts, &scene, errors);
     if (good && errors->n == 0) precision_check(groups, &d->lattice, errors);
     if (good && errors->n == 0) good = surfaces_settle(&d->options, groups, &d->lattice, places, errors);
-    if (good && errors->n == 0)
-        good = loading_build(&d->boundaries, &d->n_boundaries, &d->lattice, places, groups, errors);
-    if (good && errors->n == 0) good = set_probes(d, groups, places, errors);
+    if (good && errors->n == 0 && !d->slabs.are_made)
+        good = set_boundaries(d, places, errors) && loading_hold(&d->lattice, d->boundaries, d->n_boundaries);
+    if (good && errors->n == 0) good = set_probes(d, places, errors);
     if (good && errors->n == 0) good = body_friction_make(&d->body_friction, &d->options, groups, &d->lattice, places);
     d->options.boundaries = d->boundaries;
     d->options.n_boundaries = d->n_boundaries;

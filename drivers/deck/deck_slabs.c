@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "angle.h"
+#include "base/grow.h"
 #include "copies.h"
 #include "namelist.h"
 #include "rigid_keys.h"
@@ -39,7 +40,7 @@ static bool shows_fragments(const schema_instance *output)
 
 bool deck_slabs_suit(const schema_deck *groups)
 {
-    static const char *const of_the_whole[] = {"crack", "weakness", "boundary"};
+    static const char *const of_the_whole[] = {"crack", "weakness"};
     for (size_t k = 0; k < sizeof of_the_whole / sizeof *of_the_whole; k++)
         if (schema_count(groups, of_the_whole[k]) > 0) return false;
     for (size_t k = 0; k < schema_count(groups, "body"); k++)
@@ -55,6 +56,8 @@ typedef struct maker {
     const schema_deck *groups;
     const char *folder;      /* of the deck, with its last '/', or "" */
     const slab_body *bodies; /* [number of &body groups] */
+    const dem_index *held;   /* [n_held] as deck_slabs has them */
+    dem_index n_held;
     namelist_errors *errors;
 } maker;
 
@@ -203,6 +206,19 @@ static body_range part_of(dem_index n, dem_index part, dem_index n_parts)
     return (body_range){part * n / n_parts, (part + 1) * n / n_parts};
 }
 
+/* Own nodes that are held may not touch. The flags of all slabs are written out where there are any. */
+static dem_status hold(dem_slab *slab, const maker *m)
+{
+    dem_index *own = malloc((size_t)m->n_held * sizeof *own + 1), n = 0;
+    if (own == NULL) return DEM_ERROR_MEMORY;
+    for (dem_index k = 0; k < m->n_held; k++)
+        if (m->held[k] >= slab->first_node && m->held[k] < slab->first_node + slab->n_own)
+            own[n++] = m->held[k] - slab->first_node + slab->first_own;
+    const dem_status status = dem_lattice_exclude(&slab->lattice, own, n);
+    free(own);
+    return status;
+}
+
 /* By the same steps as whole bodies. */
 static dem_status make(dem_slab *out, const maker *m, dem_index part, dem_index n_parts)
 {
@@ -215,6 +231,7 @@ static dem_status make(dem_slab *out, const maker *m, dem_index part, dem_index 
     out->n_nodes = before.nodes;
     out->n_triangles = before.triangles;
     if (status == DEM_OK && out->n_own == 0) status = DEM_ERROR_MODEL; /* there are fewer rows than ranks */
+    if (status == DEM_OK && m->n_held > 0) status = hold(out, m);
     if (status != DEM_OK) dem_slab_free(out);
     return status;
 }
@@ -234,7 +251,7 @@ static dem_status make_each(dem_index n, const maker *m, deck_slabs_visitor *vis
 dem_status deck_slabs_each(const deck_slabs *slabs, const body_scene *scene, deck_slabs_visitor *visit, void *visitor)
 {
     namelist_errors errors = {0};
-    const maker m = {scene->groups, scene->folder, slabs->bodies, &errors};
+    const maker m = {scene->groups, scene->folder, slabs->bodies, slabs->held, slabs->n_held, &errors};
     const dem_status status = make_each(slabs->n, &m, visit, visitor);
     namelist_errors_free(&errors);
     return status;
@@ -374,7 +391,7 @@ bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const body_scene 
     out->bodies = calloc(n + 1, sizeof *out->bodies);
     out->strips = calloc(n + 1, sizeof *out->strips);
     slabs->bodies = calloc(n + 1, sizeof *slabs->bodies);
-    const maker m = {groups, scene->folder, slabs->bodies, &errors};
+    const maker m = {groups, scene->folder, slabs->bodies, NULL, 0, &errors};
     const bool good = out->bodies != NULL && out->strips != NULL && slabs->bodies != NULL;
     for (size_t k = 0; k < n && good; k++) out->strips[k] = dem_lattice_empty();
     const dem_status status = good ? look_at_all(out, slabs, &m) : DEM_ERROR_MEMORY;
@@ -392,34 +409,57 @@ void deck_slabs_forget(deck_slabs_found *found)
     *found = (deck_slabs_found){0};
 }
 
+bool deck_slabs_hold(deck_slabs *slabs, const dem_boundary *list, dem_index n)
+{
+    dem_index room = 0;
+    for (dem_index b = 0; b < n; b++) {
+        if (list[b].kind == DEM_BOUNDARY_FORCE) continue;
+        if (!grow_array((void **)&slabs->held, &room, slabs->n_held + list[b].n_nodes, sizeof *slabs->held))
+            return false;
+        memcpy(slabs->held + slabs->n_held, list[b].nodes, (size_t)list[b].n_nodes * sizeof *slabs->held);
+        slabs->n_held += list[b].n_nodes;
+    }
+    return true;
+}
+
 void deck_slabs_free(deck_slabs *slabs)
 {
     free(slabs->bodies);
+    free(slabs->held);
     *slabs = (deck_slabs){0};
 }
 
 /* ---- on all ranks ---- */
 
-/* What is known of each body, and a text behind them. All ranks are the same program on machines of one kind. */
+/* What is known of each body, numbers of nodes that are held, and a text behind them. All ranks are the same program on
+ * machines of one kind. */
 typedef struct recipe {
-    size_t n_bodies;
+    size_t n_bodies, n_held;
     slab_body bodies[];
 } recipe;
 
-static size_t head_of(size_t n_bodies)
+static const dem_index *held_in(const recipe *r)
 {
-    return sizeof(recipe) + n_bodies * sizeof(slab_body);
+    return (const dem_index *)(const void *)(r->bodies + r->n_bodies);
+}
+
+static const char *text_in(const recipe *r)
+{
+    return (const char *)(held_in(r) + r->n_held);
 }
 
 void *deck_slabs_recipe(size_t *size, const deck_slabs *slabs, size_t n_bodies, const char *echo)
 {
-    const size_t length = strlen(echo), head = head_of(n_bodies);
-    recipe *r = malloc(head + length + 1);
+    const size_t bodies = n_bodies * sizeof *slabs->bodies, held = (size_t)slabs->n_held * sizeof *slabs->held;
+    const size_t length = strlen(echo) + 1;
+    recipe *r = malloc(sizeof *r + bodies + held + length);
     if (r == NULL) return NULL;
-    r->n_bodies = n_bodies;
-    memcpy(r->bodies, slabs->bodies, n_bodies * sizeof *r->bodies);
-    memcpy((char *)r + head, echo, length + 1);
-    *size = head + length + 1;
+    *r = (recipe){n_bodies, (size_t)slabs->n_held};
+    char *to = (char *)r->bodies;
+    memcpy(to, slabs->bodies, bodies);
+    if (held > 0) memcpy(to + bodies, slabs->held, held);
+    memcpy(to + bodies + held, echo, length);
+    *size = sizeof *r + bodies + held + length;
     return r;
 }
 
@@ -427,17 +467,17 @@ dem_status deck_slabs_make(void *program, const void *bytes, size_t size, dem_in
                            dem_slab *out)
 {
     const recipe *r = bytes;
-    const size_t head = head_of(r->n_bodies);
+    const char *text = text_in(r);
     namelist_errors errors = {0};
     namelist list;
     schema_deck groups = {0};
     (void)program;
-    bool good = namelist_parse(&list, (const char *)bytes + head, size - head - 1, &errors);
+    bool good = namelist_parse(&list, text, size - (size_t)(text - (const char *)bytes) - 1, &errors);
     if (good) good = schema_resolve(&groups, &list, &errors);
     dem_status status = good ? DEM_OK : DEM_ERROR_MEMORY;
+    const maker m = {&groups, "", r->bodies, held_in(r), (dem_index)r->n_held, &errors};
     if (good) body_drop_unused(&groups);
-    if (good)
-        status = errors.n == 0 ? make(out, &(maker){&groups, "", r->bodies, &errors}, part, n_parts) : DEM_ERROR_MODEL;
+    if (good) status = errors.n == 0 ? make(out, &m, part, n_parts) : DEM_ERROR_MODEL;
     schema_free(&groups);
     namelist_free(&list);
     namelist_errors_free(&errors);

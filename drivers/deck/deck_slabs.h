@@ -7,7 +7,7 @@
 #include "body.h"
 #include "lattice_facts.h"
 
-/* Whether the keys ask for nothing that takes the whole: elastic bodies with stepped edges, without cracks, loads and
+/* Whether the keys ask for nothing that takes the whole: elastic bodies with stepped edges, without cracks and
  * rest. */
 bool deck_slabs_suit(const schema_deck *groups);
 
@@ -22,9 +22,14 @@ typedef struct deck_slabs {
     dem_index n;       /* slabs in which bodies are looked at, if the deck suits; 0: they are built as a whole */
     bool are_made;     /* their lattice is made in slabs, and the deck has none */
     slab_body *bodies; /* [number of &body groups] owned */
+    dem_index *held;   /* [n_held] owned: nodes with prescribed motion, which may not touch */
+    dem_index n_held;
 } deck_slabs;
 
 void deck_slabs_free(deck_slabs *slabs);
+
+/* Holds the nodes of n boundaries that prescribe their motion. False when memory runs out. */
+bool deck_slabs_hold(deck_slabs *slabs, const dem_boundary *list, dem_index n);
 
 /* Nodes of the first n bodies, with all of their copies. */
 dem_index deck_slabs_nodes(const schema_deck *groups, const slab_body *bodies, size_t n);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
 #include "conditional_keys.h"
 #include "material.h"
 
@@ -23,13 +24,17 @@ static const conditional_key kind_keys[] = {{"components", "fix, velocity, displ
 static const conditional_keys by_where = {"boundary", "where", sizeof where_keys / sizeof *where_keys, where_keys};
 static const conditional_keys by_kind = {"boundary", "kind", sizeof kind_keys / sizeof *kind_keys, kind_keys};
 
-/* A group with the body that it is about. */
-typedef struct target {
+/* A group with the body that it is about, and the nodes that it chooses. */
+struct loading_target {
     const schema_instance *group;
-    const placement *body;
-    const dem_lattice *lattice;
-    double reach; /* m, half the shortest spring of the body: what counts as its outermost nodes */
-} target;
+    const placement *body; /* by numbers of the whole */
+    double reach;          /* m, half the shortest spring of the body: what counts as its outermost nodes */
+    double most;           /* m, how far out the outermost is, of a side */
+    double sum;            /* m^2, of shares */
+    dem_index *nodes;      /* [n] by numbers of the whole, */
+    double *share;         /* [n] m^2, of a traction */
+    dem_index n, node_room, share_room;
+};
 
 static namelist_place place_of(const schema_instance *group, const char *key)
 {
@@ -90,12 +95,6 @@ void loading_drop_unused(schema_deck *groups)
 
 /* ---- choosing nodes ---- */
 
-/* Rest position in the body's own coordinates. */
-static void own_place(const target *t, dem_index i, double own[2])
-{
-    placement_own(t->body, t->lattice->x + 2 * i, own);
-}
-
 /* Which coordinate defines a side, and in which sense it grows outwards. */
 static void side_axis(const schema_instance *group, int *axis, double *sense)
 {
@@ -103,11 +102,14 @@ static void side_axis(const schema_instance *group, int *axis, double *sense)
     *sense = is(group, "side", "right") || is(group, "side", "top") ? 1.0 : -1.0;
 }
 
-static double outermost(const target *t, int axis, double sense)
+/* Of the nodes that a lattice has of a body. */
+static double outermost(const dem_lattice *lattice, const placement *body, const schema_instance *group)
 {
-    double most = -(double)INFINITY, own[2];
-    for (dem_index i = t->body->first; i < t->body->first + t->body->n_nodes; i++) {
-        own_place(t, i, own);
+    int axis;
+    double most = -(double)INFINITY, own[2], sense;
+    side_axis(group, &axis, &sense);
+    for (dem_index i = body->first; i < body->first + body->n_nodes; i++) {
+        placement_own(body, lattice->x + 2 * i, own);
         most = fmax(most, sense * own[axis]);
     }
     return most;
@@ -121,21 +123,58 @@ static bool in_box(const double own[2], const double *box, double slack)
 /* Rounding of the way back to own coordinates must not decide. */
 static const double blur = 1e-6;
 
-static bool chosen(const target *t, dem_index i, int axis, double sense, double most)
+/* Whether a place of the body in space is one that the group names. */
+static bool is_there(const loading_target *t, const double x[2])
 {
     const schema_instance *group = t->group;
     const double slack = blur * t->reach;
-    double own[2];
-    own_place(t, i, own);
-    if (is(group, "where", "side")) return sense * own[axis] >= most - t->reach - slack;
+    double own[2], sense;
+    int axis;
+    placement_own(t->body, x, own);
+    side_axis(group, &axis, &sense);
+    if (is(group, "where", "side")) return sense * own[axis] >= t->most - t->reach - slack;
     if (is(group, "where", "box")) return in_box(own, reals_of(group, "box"), slack);
     if (is(group, "where", "all")) return true;
     const double *centre = reals_of(group, "centre");
     return hypot(own[0] - centre[0], own[1] - centre[1]) <= schema_real(group, "radius") + slack;
 }
 
-/* Nodes of a list, numbered within the body from 0 as in its lattice file; false where one is not there. */
-static bool take_list(const target *t, dem_index *nodes, dem_index *n, namelist_errors *errors)
+static dem_index number_of(const dem_slab *slab, dem_index i)
+{
+    const dem_index own = i - slab->first_own;
+    if (own >= 0 && own < slab->n_own) return slab->first_node + own;
+    return slab->rim[own < 0 ? i : i - slab->n_own];
+}
+
+static bool is_own(const dem_slab *slab, dem_index i)
+{
+    return i >= slab->first_own && i < slab->first_own + slab->n_own;
+}
+
+/* Nodes of a slab, those of its rim, too. \return how many; \param[out] list  [n_nodes] */
+static dem_index choose(const loading_target *t, dem_index *list, const dem_slab *slab)
+{
+    dem_index n = 0;
+    for (dem_index i = 0; i < slab->lattice.n_nodes; i++) {
+        const dem_index number = number_of(slab, i) - t->body->first;
+        if (number >= 0 && number < t->body->n_nodes && is_there(t, slab->lattice.x + 2 * i)) list[n++] = i;
+    }
+    return n;
+}
+
+static bool append_node(loading_target *t, dem_index number, double share)
+{
+    if (!grow_array((void **)&t->nodes, &t->node_room, t->n + 1, sizeof *t->nodes) ||
+        !grow_array((void **)&t->share, &t->share_room, t->n + 1, sizeof *t->share))
+        return false;
+    t->nodes[t->n] = number;
+    t->share[t->n++] = share;
+    t->sum += share;
+    return true;
+}
+
+/* Nodes of a list, numbered within the body from 0 as in its lattice file; a fault where one is not there. */
+static bool take_list(loading_target *t, namelist_errors *errors)
 {
     const schema_value *list = schema_value_of(t->group, "nodes");
     for (int k = 0; k < list->count; k++) {
@@ -143,56 +182,56 @@ static bool take_list(const target *t, dem_index *nodes, dem_index *n, namelist_
         for (int q = 0; q < k; q++)
             if (list->reals[q] == number) {
                 namelist_errors_add(errors, list->place, "'nodes' in &boundary has node %.0f twice", number);
-                return false;
+                return true;
             }
         if (number >= (double)t->body->n_nodes) {
             namelist_errors_add(errors, list->place, "'nodes' in &boundary has node %.0f; the body has nodes 0 to %lld",
                                 number, (long long)t->body->n_nodes - 1);
-            return false;
+            return true;
         }
-        nodes[(*n)++] = t->body->first + (dem_index)number;
+        if (!append_node(t, t->body->first + (dem_index)number, 0.0)) return false;
     }
     return true;
-}
-
-/* Fills nodes; false for a fault. */
-static bool take_nodes(const target *t, dem_index *nodes, dem_index *n, namelist_errors *errors)
-{
-    int axis = 0;
-    double sense = 1.0;
-    *n = 0;
-    if (is(t->group, "where", "list")) return take_list(t, nodes, n, errors);
-    if (is(t->group, "where", "side")) side_axis(t->group, &axis, &sense);
-    const double most = outermost(t, axis, sense);
-    for (dem_index i = t->body->first; i < t->body->first + t->body->n_nodes; i++)
-        if (chosen(t, i, axis, sense, most)) nodes[(*n)++] = i;
-    if (*n > 0) return true;
-    namelist_errors_add(errors, place_of(t->group, "where"),
-                        "&boundary chooses no node of body %.0f: places are in the body's own coordinates",
-                        schema_real(t->group, "body"));
-    return false;
 }
 
 /* ---- what is done to them ---- */
 
-/* Shares of a traction, m^2: by the edges' lengths, of a side by what they have along it. */
-static bool share_traction(const target *t, const dem_boundary *b, double *share, namelist_errors *errors)
+/* Shares of a traction, m^2: by the edges' lengths, of a side by what they have along it. An own node has all of its
+ * edges in the slab. */
+static bool share_traction(const loading_target *t, double *share, const dem_slab *slab, const dem_index *list,
+                           dem_index n)
 {
     const double angle = t->body->angle, along[2] = {cos(angle), sin(angle)}, across[2] = {-sin(angle), cos(angle)};
     const double *direction = NULL;
-    int axis = 0;
-    double sense, sum = 0.0;
-    if (is(t->group, "where", "side")) {
-        side_axis(t->group, &axis, &sense);
-        direction = axis == 1 ? along : across;
-    }
-    if (dem_lattice_edge_shares(t->lattice, b->nodes, b->n_nodes, direction, share) != DEM_OK) return false;
-    for (dem_index k = 0; k < b->n_nodes; k++) sum += share[k];
-    if (!(sum > 0.0))
-        namelist_errors_add(errors, place_of(t->group, "where"),
-                            "&boundary chooses no edge of body %.0f for its traction: both nodes of one must be chosen",
-                            schema_real(t->group, "body"));
-    return true;
+    int axis;
+    double sense;
+    side_axis(t->group, &axis, &sense);
+    if (is(t->group, "where", "side")) direction = axis == 1 ? along : across;
+    return dem_lattice_edge_shares(&slab->lattice, list, n, direction, share) == DEM_OK;
+}
+
+/* \param list, share  [n_nodes] room */
+static bool look(loading_target *t, const dem_slab *slab, dem_index *list, double *share)
+{
+    const dem_index n = is(t->group, "where", "list") ? 0 : choose(t, list, slab);
+    bool good = true;
+    for (dem_index k = 0; k < n; k++) share[k] = 0.0;
+    if (n > 0 && is(t->group, "kind", "traction")) good = share_traction(t, share, slab, list, n);
+    for (dem_index k = 0; k < n && good; k++)
+        if (is_own(slab, list[k])) good = append_node(t, number_of(slab, list[k]), share[k]);
+    return good;
+}
+
+bool loading_look(loading_search *s, const dem_slab *slab)
+{
+    const size_t room = (size_t)slab->lattice.n_nodes + 1;
+    dem_index *list = malloc(room * sizeof *list);
+    double *share = malloc(room * sizeof *share);
+    bool good = list != NULL && share != NULL;
+    for (size_t k = 0; k < s->n && good; k++) good = look(&s->targets[k], slab, list, share);
+    free(list);
+    free(share);
+    return good;
 }
 
 static dem_boundary_kind kind_of(const schema_instance *group)
@@ -207,28 +246,6 @@ static int32_t components_of(const schema_instance *group)
     return is(group, "components", "y") ? DEM_COMPONENT_Y : DEM_COMPONENT_X | DEM_COMPONENT_Y;
 }
 
-/* Memory is the only thing that ends this; faults leave a boundary without nodes. */
-static bool build_one(dem_boundary *out, const target *t, dem_lattice *lattice, namelist_errors *errors)
-{
-    const double *value = is(t->group, "kind", "fix") ? NULL : reals_of(t->group, schema_text(t->group, "kind"));
-    dem_index *nodes = malloc((size_t)t->body->n_nodes * sizeof *nodes);
-    *out = (dem_boundary){.struct_size = sizeof(dem_boundary),
-                          .kind = kind_of(t->group),
-                          .components = components_of(t->group),
-                          .nodes = nodes,
-                          .ramp = schema_real(t->group, "ramp")};
-    for (int c = 0; c < 2 && value != NULL; c++) out->value[c] = value[c];
-    if (nodes == NULL) return false;
-    if (!take_nodes(t, nodes, &out->n_nodes, errors)) return true;
-    if (is(t->group, "kind", "traction")) {
-        double *share = malloc((size_t)out->n_nodes * sizeof *share);
-        out->share = share;
-        return share != NULL && share_traction(t, out, share, errors);
-    }
-    if (out->kind == DEM_BOUNDARY_FORCE) return true;
-    return dem_lattice_exclude(lattice, nodes, out->n_nodes) == DEM_OK;
-}
-
 /* Half the shortest spring of a body, m. */
 static double reach_of(const dem_lattice *lattice, const placement *body)
 {
@@ -238,6 +255,62 @@ static double reach_of(const dem_lattice *lattice, const placement *body)
         if (i >= body->first && i < body->first + body->n_nodes) shortest = fmin(shortest, lattice->rest_length[k]);
     }
     return isfinite(shortest) ? 0.5 * shortest : 0.0;
+}
+
+bool loading_begin(loading_search *out, const schema_deck *groups, const placement *bodies, const dem_lattice *outline,
+                   const placement *outlines)
+{
+    const size_t n = schema_count(groups, "boundary");
+    *out = (loading_search){.groups = groups, .n = n, .targets = calloc(n + 1, sizeof *out->targets)};
+    for (size_t k = 0; k < n && out->targets != NULL; k++) {
+        const schema_instance *group = schema_get(groups, "boundary", k);
+        const size_t body = (size_t)schema_real(group, "body") - 1;
+        out->targets[k] =
+            (loading_target){.group = group, .body = &bodies[body], .reach = reach_of(outline, &outlines[body])};
+        if (is(group, "where", "side")) out->targets[k].most = outermost(outline, &outlines[body], group);
+    }
+    return out->targets != NULL;
+}
+
+static dem_boundary boundary_of(const loading_target *t)
+{
+    const double *value = is(t->group, "kind", "fix") ? NULL : reals_of(t->group, schema_text(t->group, "kind"));
+    dem_boundary b = {.struct_size = sizeof(dem_boundary),
+                      .kind = kind_of(t->group),
+                      .components = components_of(t->group),
+                      .ramp = schema_real(t->group, "ramp")};
+    for (int c = 0; c < 2 && value != NULL; c++) b.value[c] = value[c];
+    return b;
+}
+
+static void check_found(const loading_target *t, namelist_errors *errors)
+{
+    if (t->n == 0)
+        namelist_errors_add(errors, place_of(t->group, "where"),
+                            "&boundary chooses no node of body %.0f: places are in the body's own coordinates",
+                            schema_real(t->group, "body"));
+    else if (is(t->group, "kind", "traction") && !(t->sum > 0.0))
+        namelist_errors_add(errors, place_of(t->group, "where"),
+                            "&boundary chooses no edge of body %.0f for its traction: both nodes of one must be chosen",
+                            schema_real(t->group, "body"));
+}
+
+/* Memory is the only thing that ends this; faults leave a boundary with the nodes that it has. */
+static bool finish(dem_boundary *out, loading_target *t, namelist_errors *errors)
+{
+    *out = boundary_of(t);
+    if (is(t->group, "where", "list")) {
+        if (!take_list(t, errors)) return false;
+    } else {
+        check_found(t, errors);
+    }
+    out->n_nodes = t->n;
+    out->nodes = t->nodes;
+    t->nodes = NULL;
+    if (!is(t->group, "kind", "traction")) return true;
+    out->share = t->share;
+    t->share = NULL;
+    return true;
 }
 
 /* The boundary, from 1, that a component of one of b's nodes has already, and that node; or 0, and b has them now. */
@@ -255,37 +328,50 @@ static size_t take_components(const dem_boundary *b, size_t number, size_t *owne
 }
 
 /* No component has two motions. */
-static bool check_motions(const dem_boundary *list, size_t n, const dem_lattice *lattice, const schema_deck *groups,
+static bool check_motions(const dem_boundary *list, const loading_search *s, const dem_slab *whole,
                           namelist_errors *errors)
 {
-    size_t *owner = calloc(2 * (size_t)lattice->n_nodes + 1, sizeof *owner);
-    for (size_t k = 0; k < n && owner != NULL; k++) {
+    const double *x = whole->lattice.x;
+    size_t *owner = calloc(2 * (size_t)whole->n_nodes + 1, sizeof *owner);
+    for (size_t k = 0; k < s->n && owner != NULL; k++) {
         dem_index i = 0;
         const size_t other = list[k].kind == DEM_BOUNDARY_FORCE ? 0 : take_components(&list[k], k + 1, owner, &i);
         if (other == 0) continue;
-        namelist_errors_add(errors, schema_get(groups, "boundary", k)->place,
+        namelist_errors_add(errors, schema_get(s->groups, "boundary", k)->place,
                             "&boundary prescribes the motion of node %lld at (%g, %g) m, as the one in line %d does",
-                            (long long)i, lattice->x[2 * i], lattice->x[2 * i + 1],
-                            schema_get(groups, "boundary", other - 1)->place.line);
+                            (long long)i, x != NULL ? x[2 * i] : 0.0, x != NULL ? x[2 * i + 1] : 0.0,
+                            schema_get(s->groups, "boundary", other - 1)->place.line);
     }
     free(owner);
     return owner != NULL;
 }
 
-bool loading_build(dem_boundary **list, dem_index *n, dem_lattice *lattice, const placement *bodies,
-                   const schema_deck *groups, namelist_errors *errors)
+bool loading_end(dem_boundary **list, dem_index *n, loading_search *s, const dem_slab *whole, namelist_errors *errors)
 {
-    const size_t count = schema_count(groups, "boundary");
+    bool good = true;
     *n = 0;
-    *list = calloc(count + 1, sizeof **list);
-    for (size_t k = 0; *list != NULL && k < count; k++) {
-        const schema_instance *group = schema_get(groups, "boundary", k);
-        const placement *body = &bodies[(size_t)schema_real(group, "body") - 1];
-        const target t = {group, body, lattice, reach_of(lattice, body)};
-        const bool good = build_one(&(*list)[(*n)++], &t, lattice, errors);
-        if (!good) return false;
+    *list = calloc(s->n + 1, sizeof **list);
+    for (size_t k = 0; k < s->n && *list != NULL && good; k++) good = finish(&(*list)[(*n)++], &s->targets[k], errors);
+    return good && *list != NULL && check_motions(*list, s, whole, errors);
+}
+
+void loading_forget(loading_search *s)
+{
+    for (size_t k = 0; k < s->n && s->targets != NULL; k++) {
+        free(s->targets[k].nodes);
+        free(s->targets[k].share);
     }
-    return *list != NULL && check_motions(*list, count, lattice, groups, errors);
+    free(s->targets);
+    *s = (loading_search){0};
+}
+
+bool loading_hold(dem_lattice *lattice, const dem_boundary *list, dem_index n)
+{
+    for (dem_index k = 0; k < n; k++)
+        if (list[k].kind != DEM_BOUNDARY_FORCE &&
+            dem_lattice_exclude(lattice, list[k].nodes, list[k].n_nodes) != DEM_OK)
+            return false;
+    return true;
 }
 
 bool loading_asked(double force[2], const schema_deck *groups, size_t k)

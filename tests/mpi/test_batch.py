@@ -99,7 +99,7 @@ IN_SLABS = """
 &probe name = 'across', kind = 'gauge', place = -0.05, 0, 0.05, 0 /
 &probe name = 'left', kind = 'spring', place = -0.04, 0.01 /
 """
-# A square with a core flies at a disc, which spins on copies of another one: three slabs begin within bodies.
+# A square with a core is pushed at a disc, which spins on copies of another one: slabs begin within bodies.
 SEVERAL_IN_SLABS = """
 &run t_end = 1.5e-3 /
 &material name = 'soft', youngs_modulus = 1e6, poissons_ratio = 0.3, density = 1050, friction = 0.4 /
@@ -111,6 +111,8 @@ SEVERAL_IN_SLABS = """
     velocity = 0, -9, material = 'damped' /
 &body shape = 'disc', radius = 0.018, spacing = 4e-3, outline = 'lattice', copies = 3, 1, pitch = 0.04, 1,
     position = -0.042, 0.0185, velocity = 1, -6, material = 'soft' /
+&boundary where = 'side', side = 'top', kind = 'velocity', velocity = 0, 0, components = 'y' /
+&boundary where = 'side', side = 'left', kind = 'traction', traction = 3e4, 0, ramp = 1e-4 /
 &obstacle points = -0.2, 0, 0.2, 0, friction = 0.3 /
 &solver checkpoint_steps = 20 /
 &output name = 'free', frame_interval = 2e-4, peak_every = 3, measure = .false.,

@@ -70,6 +70,18 @@ static const char *const suited[] = {
     "clearance = 1e-3, spin = 2 /\n"
     "&body shape = 'mask', file = 'a.pgm', scale = 2e-3, spacing = 3e-3, invert = .true., lattice = 'square', "
     "position = 0.3, 0.2 /\n",
+    /* Held, pulled, pushed; by sides, places and a number. */
+    RUN GROUND "&body shape = 'rectangle', size = 0.12, 0.1, spacing = 5e-3, outline = 'lattice', angle = 30, "
+               "clearance = 1e-3 /\n&void shape = 'disc', centre = 0, 0.05, radius = 0.02 /\n"
+               "&body shape = 'disc', radius = 0.04, spacing = 4e-3, lattice = 'square', jitter = 0.2, "
+               "position = 0.2, 0.2 /\n"
+               "&boundary where = 'side', side = 'bottom' /\n"
+               "&boundary where = 'side', side = 'right', kind = 'traction', traction = 100, 0, ramp = 1 /\n"
+               "&boundary where = 'disc', centre = 0, 0.05, radius = 0.025, kind = 'traction', traction = 0, 9 /\n"
+               "&boundary body = 2, where = 'side', side = 'top', kind = 'velocity', velocity = 1, 0, "
+               "components = 'x' /\n"
+               "&boundary body = 2, where = 'list', nodes = 3, 200, kind = 'force', force = 1, 2 /\n"
+               "&boundary body = 2, where = 'box', box = -0.01, -0.05, 0.01, -0.03 /\n",
 };
 
 /* A cross in a frame, 40 by 30 pixels, of which the dark ones are material. */
@@ -132,6 +144,18 @@ static void check_facts(const deck *whole, const deck *slabs)
     for (dem_index k = 0; k < f->n_bodies; k++) assert_memory_equal(&f->bodies[k], &g->bodies[k], sizeof f->bodies[k]);
 }
 
+static void check_boundaries(const deck *whole, const deck *slabs)
+{
+    assert_int_equal(whole->n_boundaries, slabs->n_boundaries);
+    for (dem_index k = 0; k < whole->n_boundaries; k++) {
+        const dem_boundary *a = &whole->boundaries[k], *b = &slabs->boundaries[k];
+        assert_int_equal(a->n_nodes, b->n_nodes);
+        assert_memory_equal(a->nodes, b->nodes, (size_t)a->n_nodes * sizeof *a->nodes);
+        assert_int_equal(a->share != NULL, b->share != NULL);
+        if (a->share != NULL) assert_memory_equal(a->share, b->share, (size_t)a->n_nodes * sizeof *a->share);
+    }
+}
+
 static void check_probes(const deck *whole, const deck *slabs)
 {
     assert_int_equal(whole->n_probes, slabs->n_probes);
@@ -150,6 +174,8 @@ static void check_nodes(const dem_lattice *whole, const dem_slab *slab)
     assert_memory_equal(whole->x + 2 * first, l->x + 2 * own, 2 * n * sizeof *l->x);
     assert_memory_equal(whole->mass + first, l->mass + own, n * sizeof *l->mass);
     assert_memory_equal(whole->velocity + 2 * first, l->velocity + 2 * own, 2 * n * sizeof *l->velocity);
+    assert_int_equal(whole->flags != NULL, l->flags != NULL);
+    if (l->flags != NULL) assert_memory_equal(whole->flags + first, l->flags + own, n * sizeof *l->flags);
     for (dem_index i = 0; i < slab->n_own; i++)
         assert_int_equal(whole->body != NULL ? whole->body[first + i] : 0, l->body[own + i]);
 }
@@ -228,6 +254,7 @@ TEST(slabs_have_the_facts_and_the_nodes_of_the_whole)
             assert_int_equal(slabs.lattice.n_nodes, 0);
             assert_string_equal(whole.echo, slabs.echo);
             check_facts(&whole, &slabs);
+            check_boundaries(&whole, &slabs);
             check_probes(&whole, &slabs);
             check_slabs(&whole, &slabs);
         }
@@ -239,7 +266,7 @@ TEST(what_asks_for_more_is_built_as_a_whole)
     static const char *const others[] = {
         RUN "&body shape = 'rectangle', size = 0.05, 0.05, spacing = 5e-3, outline = 'smooth' /\n",
         RUN "&body shape = 'rectangle', size = 0.05, 0.05, spacing = 5e-3, outline = 'lattice' /\n"
-            "&boundary where = 'side', side = 'left' /\n",
+            "&crack points = 0.01, 0.01, 0.02, 0.04 /\n",
         RUN "&body shape = 'disc', radius = 0.02, spacing = 5e-3, outline = 'lattice' /\n"
             "&body shape = 'disc', radius = 0.02, spacing = 5e-3, outline = 'lattice', position = 0.1, 0, "
             "rigid = .true. /\n",
@@ -270,7 +297,10 @@ TEST(what_is_wrong_is_reported_as_of_the_whole)
         "&obstacle points = -0.3, -0.02, 0.0008, -0.02, 0.0012, 0.022, 0.0016, -0.02, 0.3, -0.02 /\n"
         "&body shape = 'rectangle', size = 0.06, 0.06, spacing = 5e-3, outline = 'lattice', position = 0, -0.003 /\n",
         RUN "&body shape = 'disc', radius = 0.05, spacing = 5e-3, outline = 'lattice' /\n"
-            "&probe name = 'a', number = 99999 /\n&probe name = 'b', kind = 'spring', number = 99999 /\n"};
+            "&probe name = 'a', number = 99999 /\n&probe name = 'b', kind = 'spring', number = 99999 /\n",
+        RUN "&body shape = 'disc', radius = 0.05, spacing = 5e-3, outline = 'lattice' /\n"
+            "&boundary where = 'box', box = 0.1, 0.1, 0.2, 0.2 /\n&boundary where = 'side', side = 'left' /\n"
+            "&boundary where = 'disc', centre = -0.05, 0, radius = 0.02 /\n"};
     for (size_t t = 0; t < sizeof texts / sizeof *texts; t++) {
         namelist_errors errors[2] = {{0}};
         const char *path = folder_at(&scratch, "a.nml");

@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 
+#include "harness/slab_cut.h"
 #include "loading.h"
 
 #define BASE "&run t_end = 1 /\n&body shape = 'file', file = 'x' /\n"
@@ -53,13 +54,35 @@ typedef struct loaded {
 
 static const placement place = {.first = 3, .n_nodes = n_nodes, .angle = 1.5707963267948966, .offset = {7.0, -2.0}};
 
-static void build(loaded *l, const char *text)
+/* In one slab, or in two of the first `first` nodes and the others. */
+static void look(loaded *l, dem_index first)
+{
+    CLEANUP(loading_forget) loading_search search;
+    dem_slab whole = dem_slab_empty();
+    whole.n_nodes = l->lattice.n_nodes;
+    whole.lattice = l->lattice;
+    assert_true(loading_begin(&search, &l->from.deck, &place, &l->lattice, &place));
+    for (dem_index begin = 0, end = first; begin < whole.n_nodes; begin = end, end = whole.n_nodes) {
+        CLEANUP(dem_slab_free) dem_slab slab = slab_cut(&l->lattice, begin, end);
+        assert_int_equal(slab.n_own, end - begin);
+        assert_true(loading_look(&search, &slab));
+    }
+    assert_true(loading_end(&l->list, &l->n, &search, &whole, &l->errors));
+}
+
+static void build_in(loaded *l, dem_index first, const char *text)
 {
     *l = (loaded){.from = resolve_clean(text)};
     loading_drop_unused(&l->from.deck);
     loading_check_all(&l->from.deck, &l->errors);
     make_block(&l->lattice, &place);
-    assert_true(loading_build(&l->list, &l->n, &l->lattice, &place, &l->from.deck, &l->errors));
+    look(l, first);
+    assert_true(loading_hold(&l->lattice, l->list, l->n));
+}
+
+static void build(loaded *l, const char *text)
+{
+    build_in(l, place.first + n_nodes, text);
 }
 
 static void load(loaded *l, const char *text)
@@ -103,6 +126,35 @@ TEST(sides_are_those_of_the_body_itself)
     assert_null(l.list[3].share);
     assert_close(l.list[3].value[1], 4.0, 0.0);
     assert_close(l.list[3].ramp, 5.0, 0.0);
+}
+
+static void check_same(const dem_boundary *a, const dem_boundary *b)
+{
+    assert_int_equal(a->kind, b->kind);
+    assert_int_equal(a->n_nodes, b->n_nodes);
+    assert_memory_equal(a->nodes, b->nodes, (size_t)a->n_nodes * sizeof *a->nodes);
+    assert_int_equal(a->share != NULL, b->share != NULL);
+    if (a->share != NULL) assert_memory_equal(a->share, b->share, (size_t)a->n_nodes * sizeof *a->share);
+}
+
+/* Edges between a node of either slab count in both of them. */
+TEST(slabs_have_the_nodes_and_shares_of_the_whole)
+{
+    static const char text[] =
+        BASE "&boundary where = 'side', side = 'left' /\n"
+             "&boundary where = 'side', side = 'right', kind = 'traction', traction = 1, 2 /\n"
+             "&boundary where = 'box', box = 0.4, 0.9, 3, 3, kind = 'traction', traction = 0, 1 /\n"
+             "&boundary where = 'list', nodes = 12, 7, kind = 'displacement', displacement = 1, 0, ramp = 1 /\n"
+             "&boundary where = 'disc', centre = 1, 1, radius = 0.6, kind = 'force', force = 0, 1 /\n";
+    CLEANUP(drop_loaded) loaded whole;
+    load(&whole, text);
+    for (dem_index first = 1; first < place.first + n_nodes; first++) {
+        CLEANUP(drop_loaded) loaded l;
+        build_in(&l, first, text);
+        assert_int_equal(l.errors.n, 0);
+        assert_int_equal(l.n, whole.n);
+        for (dem_index k = 0; k < l.n; k++) check_same(&whole.list[k], &l.list[k]);
+    }
 }
 
 TEST(places_are_in_own_coordinates)
