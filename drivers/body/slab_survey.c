@@ -9,29 +9,15 @@
 
 #include "base/grow.h"
 #include "base/union_find.h"
-
-static bool is_own(const dem_slab *slab, dem_index i)
-{
-    return i >= slab->first_own && i < slab->first_own + slab->n_own;
-}
-
-/* Of the rim's nodes those above the own ones come behind those below. */
-static dem_index rim_of(const dem_slab *slab, dem_index i)
-{
-    return i < slab->first_own ? i : i - slab->n_own;
-}
-
-static dem_index number_of(const dem_slab *slab, dem_index i)
-{
-    return is_own(slab, i) ? slab->first_node + i - slab->first_own : slab->rim[rim_of(slab, i)];
-}
+#include "slab_nodes.h"
 
 /* ---- the strip ---- */
 
 static slab_corner corner_of(const dem_slab *slab, dem_index i, const dem_index *rims)
 {
     const double *x = slab->lattice.x + 2 * i;
-    return (slab_corner){.number = number_of(slab, i), .x = {x[0], x[1]}, .flags = rims[i] > 0 ? DEM_NODE_CONTACT : 0};
+    return (slab_corner){
+        .number = slab_nodes_number(slab, i), .x = {x[0], x[1]}, .flags = rims[i] > 0 ? DEM_NODE_CONTACT : 0};
 }
 
 static bool append_corners(slab_survey *s, const slab_corner corners[3])
@@ -84,10 +70,10 @@ static dem_index *find_rims(slab_survey *s, const dem_slab *slab)
         return NULL;
     }
     for (dem_index i = 0; i < l->n_nodes; i++) {
-        if (is_own(slab, i))
+        if (slab_nodes_own(slab, i))
             s->has_hinge = s->has_hinge || rims[i] > 2;
         else
-            rims[i] = slab->rim_boundary[rim_of(slab, i)];
+            rims[i] = slab->rim_boundary[slab_nodes_rim(slab, i)];
     }
     return rims;
 }
@@ -193,7 +179,7 @@ bool slab_survey_add_parts(slab_survey *s, const dem_slab *slab)
         return false;
     }
     for (dem_index i = 0; i < slab->lattice.n_nodes; i++) {
-        number[i] = number_of(slab, i);
+        number[i] = slab_nodes_number(slab, i);
         part[i] += first;
     }
     join(s, number, part, slab->lattice.n_nodes);

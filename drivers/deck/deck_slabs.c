@@ -45,8 +45,7 @@ bool deck_slabs_suit(const schema_deck *groups)
         if (schema_count(groups, of_the_whole[k]) > 0) return false;
     for (size_t k = 0; k < schema_count(groups, "body"); k++)
         if (!is_plain(schema_get(groups, "body", k))) return false;
-    return is_elastic(groups) && schema_real(schema_get(groups, "run", 0), "residual") == 0.0 &&
-           !shows_fragments(schema_get(groups, "output", 0));
+    return is_elastic(groups) && !shows_fragments(schema_get(groups, "output", 0));
 }
 
 /* ---- slabs ---- */

@@ -7,8 +7,7 @@
 #include "body.h"
 #include "lattice_facts.h"
 
-/* Whether the keys ask for nothing that takes the whole: elastic bodies with stepped edges, without cracks and
- * rest. */
+/* Whether the keys ask for nothing that takes the whole: elastic bodies with stepped edges, without cracks. */
 bool deck_slabs_suit(const schema_deck *groups);
 
 /* What makes of slabs of a body, or of one of its copies, besides the keys, what they are in the whole. */

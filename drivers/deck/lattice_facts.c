@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
+#include "slab_nodes.h"
+
 static const unsigned rigid_flags = DEM_NODE_RIGID | DEM_NODE_GUIDE_X | DEM_NODE_GUIDE_Y;
 
 static dem_index body_of(const dem_lattice *l, dem_index node)
@@ -29,32 +32,84 @@ static bool make_bodies(lattice_facts *f, dem_index n)
     return true;
 }
 
-static bool is_in(dem_index node, dem_index first, dem_index n)
+/* ---- how fast springs are ---- */
+
+static double mass_of(const dem_slab *slab, dem_index i)
 {
-    return node >= first && node < first + n;
+    return slab_nodes_own(slab, i) ? slab->lattice.mass[i] : 0.0;
 }
 
-/* Nodes from `first` on, and springs that have one of them: others have not all of their triangles. */
-static bool add(lattice_facts *f, const dem_lattice *l, dem_index first, dem_index n)
+static void add_slowness(lattice_facts *f, const lattice_spring *s)
 {
-    f->may_break = l->strength != NULL || l->critical_stretch != NULL;
-    f->may_soften = f->may_break && l->softening != NULL;
-    for (dem_index k = 0; k < l->n_springs && l->viscosity != NULL; k++)
-        if (is_in(l->ends[2 * k], first, n) || is_in(l->ends[2 * k + 1], first, n))
-            f->damping_time = fmax(f->damping_time, l->viscosity[k] / l->stiffness[k]);
-    for (dem_index i = first; i < first + n; i++) {
-        if (!make_bodies(f, body_of(l, i) + 1)) return false;
-        lattice_body *body = &f->bodies[body_of(l, i)];
-        body->rigid |= flags_of(l, i) & rigid_flags;
-        initial_motion_add(&body->motion, l, i);
-        initial_motion_add(&f->motion, l, i);
+    const double slowness = sqrt(0.5 * (s->mass[0] + s->mass[1]) / s->scale);
+    f->least_slowness = f->n_springs > 0 ? fmin(f->least_slowness, slowness) : slowness;
+    f->sum_of_slowness += slowness;
+    f->n_springs++;
+}
+
+/* Masses of a rim are not those of the whole, but the next slab has the nodes above this one. */
+static void add_waiting(lattice_facts *f, const dem_slab *slab)
+{
+    for (dem_index k = 0; k < f->n_waiting; k++) {
+        lattice_spring *s = &f->waiting[k];
+        if (s->upper >= 0) s->mass[1] = mass_of(slab, slab->first_own + s->upper - slab->first_node);
+        add_slowness(f, s);
     }
+    f->n_waiting = 0;
+}
+
+/* In their order: behind one that waits all wait. */
+static bool add_spring(lattice_facts *f, const dem_slab *slab, dem_index k)
+{
+    const dem_lattice *l = &slab->lattice;
+    const dem_index a = l->ends[2 * k], b = l->ends[2 * k + 1], lower = a < b ? a : b, upper = a < b ? b : a;
+    const bool is_whole = slab_nodes_own(slab, upper);
+    const lattice_spring s = {.mass = {mass_of(slab, lower), mass_of(slab, upper)},
+                              .scale = l->stiffness[k] * l->rest_length[k],
+                              .upper = is_whole ? -1 : slab_nodes_number(slab, upper)};
+    if (!slab_nodes_own(slab, lower)) return true;
+    if (is_whole && f->n_waiting == 0) {
+        add_slowness(f, &s);
+        return true;
+    }
+    if (!grow_array((void **)&f->waiting, &f->room, f->n_waiting + 1, sizeof s)) return false;
+    f->waiting[f->n_waiting++] = s;
     return true;
 }
 
-bool lattice_facts_add(lattice_facts *facts, const dem_slab *slab)
+/* ---- nodes and springs ---- */
+
+/* Springs without an own node have not all of their triangles. */
+static void note_damping(lattice_facts *f, const dem_slab *slab)
 {
-    return add(facts, &slab->lattice, slab->first_own, slab->n_own);
+    const dem_lattice *l = &slab->lattice;
+    for (dem_index k = 0; k < l->n_springs && l->viscosity != NULL; k++)
+        if (slab_nodes_own(slab, l->ends[2 * k]) || slab_nodes_own(slab, l->ends[2 * k + 1]))
+            f->damping_time = fmax(f->damping_time, l->viscosity[k] / l->stiffness[k]);
+}
+
+static bool add_node(lattice_facts *f, const dem_lattice *l, dem_index i)
+{
+    if (!make_bodies(f, body_of(l, i) + 1)) return false;
+    lattice_body *body = &f->bodies[body_of(l, i)];
+    body->rigid |= flags_of(l, i) & rigid_flags;
+    initial_motion_add(&body->motion, l, i);
+    initial_motion_add(&f->motion, l, i);
+    return true;
+}
+
+bool lattice_facts_add(lattice_facts *f, const dem_slab *slab)
+{
+    const dem_lattice *l = &slab->lattice;
+    bool good = true;
+    f->may_break = l->strength != NULL || l->critical_stretch != NULL;
+    f->may_soften = f->may_break && l->softening != NULL;
+    note_damping(f, slab);
+    for (dem_index i = 0; i < slab->n_own && good; i++) good = add_node(f, l, slab->first_own + i);
+    add_waiting(f, slab);
+    for (dem_index k = 0; k < l->n_springs && good; k++) good = add_spring(f, slab, k);
+    f->share_of_fastest = f->n_springs > 0 ? f->least_slowness * (double)f->n_springs / f->sum_of_slowness : 1.0;
+    return good;
 }
 
 void lattice_facts_find_box(lattice_facts *f, const dem_lattice *box)
@@ -66,34 +121,20 @@ void lattice_facts_find_box(lattice_facts *f, const dem_lattice *box)
     }
 }
 
-static double slowness_of(const dem_lattice *l, dem_index spring)
-{
-    const double mass = l->mass[l->ends[2 * spring]] + l->mass[l->ends[2 * spring + 1]];
-    return sqrt(0.5 * mass / (l->stiffness[spring] * l->rest_length[spring]));
-}
-
-static void find_share(lattice_facts *f, const dem_lattice *l)
-{
-    double least = (double)INFINITY, sum = 0.0;
-    for (dem_index k = 0; k < l->n_springs; k++) {
-        const double slowness = slowness_of(l, k);
-        least = fmin(least, slowness);
-        sum += slowness;
-    }
-    f->share_of_fastest = l->n_springs > 0 ? least * (double)l->n_springs / sum : 1.0;
-}
-
 bool lattice_facts_find(lattice_facts *out, const dem_lattice *lattice)
 {
+    dem_slab all = dem_slab_empty();
+    all.n_own = lattice->n_nodes;
+    all.lattice = *lattice;
     *out = (lattice_facts){0};
     lattice_facts_find_box(out, lattice);
-    find_share(out, lattice);
-    return add(out, lattice, 0, lattice->n_nodes);
+    return lattice_facts_add(out, &all);
 }
 
 void lattice_facts_free(lattice_facts *facts)
 {
     free(facts->bodies);
+    free(facts->waiting);
     *facts = (lattice_facts){0};
 }
 

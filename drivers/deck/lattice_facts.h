@@ -16,6 +16,13 @@ typedef struct lattice_body {
     initial_motion motion;
 } lattice_body;
 
+/* A spring whose upper end has its mass in the next slab, or that comes behind one. */
+typedef struct lattice_spring {
+    double mass[2];  /* kg, of its ends */
+    double scale;    /* N m, its stiffness times its length */
+    dem_index upper; /* number of the end whose mass is not known; -1: both are */
+} lattice_spring;
+
 typedef struct lattice_facts {
     initial_motion motion;
     bool may_break;          /* something of it breaks by itself, */
@@ -26,13 +33,17 @@ typedef struct lattice_facts {
                                 same way; 1 without springs */
     lattice_body *bodies;    /* [n_bodies] */
     dem_index n_bodies;
+    double least_slowness, sum_of_slowness; /* of the n_springs so far: how long waves take along them, s/m */
+    dem_index n_springs;
+    lattice_spring *waiting; /* [n_waiting] for the next slab */
+    dem_index n_waiting, room;
 } lattice_facts;
 
 /* Of a lattice of which a model can be made. False when memory runs out. Free with lattice_facts_free() in any case. */
 bool lattice_facts_find(lattice_facts *out, const dem_lattice *lattice);
 
-/* The same of slabs, one after the other, but for share_of_fastest, which stays 0, as masses of a rim are not those of
- * the whole. The box is that of `box`, any nodes that have the outermost among them. Facts are zero at first. */
+/* The same of slabs of whole rows, one after the other. The box is that of `box`, any nodes that have the outermost
+ * among them. Facts are zero at first. */
 bool lattice_facts_add(lattice_facts *facts, const dem_slab *slab);
 void lattice_facts_find_box(lattice_facts *facts, const dem_lattice *box);
 void lattice_facts_free(lattice_facts *facts);

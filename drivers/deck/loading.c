@@ -9,6 +9,7 @@
 #include "base/grow.h"
 #include "conditional_keys.h"
 #include "material.h"
+#include "slab_nodes.h"
 
 static const conditional_key where_keys[] = {{"side", "side", true},
                                              {"box", "box", true},
@@ -139,24 +140,12 @@ static bool is_there(const loading_target *t, const double x[2])
     return hypot(own[0] - centre[0], own[1] - centre[1]) <= schema_real(group, "radius") + slack;
 }
 
-static dem_index number_of(const dem_slab *slab, dem_index i)
-{
-    const dem_index own = i - slab->first_own;
-    if (own >= 0 && own < slab->n_own) return slab->first_node + own;
-    return slab->rim[own < 0 ? i : i - slab->n_own];
-}
-
-static bool is_own(const dem_slab *slab, dem_index i)
-{
-    return i >= slab->first_own && i < slab->first_own + slab->n_own;
-}
-
 /* Nodes of a slab, those of its rim, too. \return how many; \param[out] list  [n_nodes] */
 static dem_index choose(const loading_target *t, dem_index *list, const dem_slab *slab)
 {
     dem_index n = 0;
     for (dem_index i = 0; i < slab->lattice.n_nodes; i++) {
-        const dem_index number = number_of(slab, i) - t->body->first;
+        const dem_index number = slab_nodes_number(slab, i) - t->body->first;
         if (number >= 0 && number < t->body->n_nodes && is_there(t, slab->lattice.x + 2 * i)) list[n++] = i;
     }
     return n;
@@ -218,7 +207,7 @@ static bool look(loading_target *t, const dem_slab *slab, dem_index *list, doubl
     for (dem_index k = 0; k < n; k++) share[k] = 0.0;
     if (n > 0 && is(t->group, "kind", "traction")) good = share_traction(t, share, slab, list, n);
     for (dem_index k = 0; k < n && good; k++)
-        if (is_own(slab, list[k])) good = append_node(t, number_of(slab, list[k]), share[k]);
+        if (slab_nodes_own(slab, list[k])) good = append_node(t, slab_nodes_number(slab, list[k]), share[k]);
     return good;
 }
 

@@ -501,6 +501,14 @@ class InSlabs(Runs):
             self.assertIn("of slabs", log)
         self.assert_same("one", "parts")
 
+    def test_a_run_ends_at_rest_as_that_of_one_process(self):
+        stepped = ("--set", "body.outline=lattice", "--set", "output.measure=false")
+        self.assertEqual(self.run_on(0, "one", *stepped, deck="plate.nml")[0], 0)
+        code, log, errors = self.run_on(3, "ranks", *stepped, "--slab-nodes", "1", deck="plate.nml")
+        self.assertEqual(code, 0, errors)
+        self.assertIn("of slabs", log)
+        self.assert_same("one", "ranks")
+
     def test_a_deck_that_does_not_suit_is_built_as_a_whole(self):
         self.assertEqual(self.run_on(0, "one")[0], 0)
         code, log, errors = self.run_on(3, "ranks", "--slab-nodes", "1")

@@ -3,6 +3,7 @@
  * slabs that ranks make by the recipe have the nodes of the whole; and what a deck asks for beyond that takes the
  * whole. */
 #include "deck_slabs.h"
+#include "slab_nodes.h"
 
 #include "unit/close.h"
 #include "unit/deck_text.h"
@@ -140,6 +141,7 @@ static void check_facts(const deck *whole, const deck *slabs)
     assert_memory_equal(f->low, g->low, sizeof f->low);
     assert_memory_equal(f->high, g->high, sizeof f->high);
     assert_memory_equal(&f->damping_time, &g->damping_time, sizeof f->damping_time);
+    assert_memory_equal(&f->share_of_fastest, &g->share_of_fastest, sizeof f->share_of_fastest);
     assert_int_equal(f->n_bodies, g->n_bodies);
     for (dem_index k = 0; k < f->n_bodies; k++) assert_memory_equal(&f->bodies[k], &g->bodies[k], sizeof f->bodies[k]);
 }
@@ -191,18 +193,11 @@ static void check_rim(const dem_lattice *whole, const dem_slab *slab)
     }
 }
 
-static dem_index number_of(const dem_slab *slab, dem_index i)
-{
-    const dem_index own = i - slab->first_own;
-    if (own >= 0 && own < slab->n_own) return slab->first_node + own;
-    return slab->rim[own < 0 ? i : i - slab->n_own];
-}
-
 static void check_triangles(const dem_lattice *whole, const dem_slab *slab)
 {
     const dem_lattice *l = &slab->lattice;
     for (dem_index k = 0; k < 3 * l->n_triangles; k++)
-        assert_int_equal(whole->triangles[3 * slab->first_triangle + k], number_of(slab, l->triangles[k]));
+        assert_int_equal(whole->triangles[3 * slab->first_triangle + k], slab_nodes_number(slab, l->triangles[k]));
 }
 
 /* Those whose lower end is an own node come behind those of the slabs before. \return how many there are in all */
