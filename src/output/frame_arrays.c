@@ -4,6 +4,7 @@
  * zeros deflate to a 200th. */
 #include "output/frame_arrays.h"
 
+#include "base/motion_source.h"
 #include "base/status.h"
 #include "lattice/lattice_source.h"
 #include "output/vtk_grid.h"
@@ -14,23 +15,30 @@
 /* The dataset of an array, and that of its offsets. */
 #define IN(set, name) GRID set "/" name, STEPS "/" set "Offsets/" name
 
-/* Fields for which the stresses of all nodes are needed. */
-enum { ANY_STRESS = DEM_FIELD_STRESS | DEM_FIELD_VON_MISES | DEM_FIELD_PRINCIPAL };
+/* ---- arrays: what fills f->scratch, [6 n_nodes] at least ---- */
 
-/* What is looked at while a frame is written. */
-typedef struct view {
-    const dem_simulation *simulation;
-    dem_state state;
-} view;
+/* Where rows of two, or three, components of each node are before they are spread in place: as far behind as what they
+ * become does not reach a row that is still to be read. */
+static double *plane_of(const frames *f)
+{
+    return f->scratch + 4 * f->n_nodes;
+}
 
-/* ---- arrays: what fills f->scratch ---- */
+static double *stresses_of(const frames *f)
+{
+    return f->scratch + 3 * f->n_nodes;
+}
 
 /* From two components to VTK's three: the plane lies at z = 0 of space. */
-static void spread(double *out, dem_index n, const double *values, const double *less)
+static void spread(const frames *f)
 {
-    for (dem_index i = 0; i < n; i++)
-        for (int d = 0; d < 3; d++)
-            out[3 * i + d] = d == 2 ? 0.0 : values[2 * i + d] - (less != NULL ? less[2 * i + d] : 0.0);
+    const double *plane = plane_of(f);
+    for (dem_index i = 0; i < f->n_nodes; i++) {
+        const double x = plane[2 * i], y = plane[2 * i + 1];
+        f->scratch[3 * i] = x;
+        f->scratch[3 * i + 1] = y;
+        f->scratch[3 * i + 2] = 0.0;
+    }
 }
 
 /* VTK's order of a symmetric tensor: xx, yy, zz, xy, yz, xz. */
@@ -42,101 +50,107 @@ void frame_arrays_spread_stress(double *out, dem_index n, const double *stress)
     }
 }
 
-static dem_status fill_points(const frames *f, const view *v)
+static dem_status fill_points(const frames *f, const dem_simulation *simulation)
 {
-    spread(f->scratch, f->n_nodes, v->state.x, NULL);
+    TRY(dem_private_positions(simulation, plane_of(f)));
+    spread(f);
+    return DEM_OK;
+}
+
+static dem_status subtract(void *context, dem_index first, dem_index n, const void *rows)
+{
+    double *plane = (double *)context + 2 * first;
+    const double *x = rows;
+    for (dem_index k = 0; k < 2 * n; k++) plane[k] -= x[k];
     return DEM_OK;
 }
 
 /* From the rest position, which need not be where the motion started. */
-static dem_status fill_displacement(const frames *f, const view *v)
+static dem_status fill_displacement(const frames *f, const dem_simulation *simulation)
 {
-    const lattice_source lattice = dem_private_lattice_source(dem_simulation_model(v->simulation));
-    source_array x;
-    const dem_status status = dem_private_lattice_open(&x, &lattice, offsetof(dem_lattice, x));
-    if (status == DEM_OK) spread(f->scratch, f->n_nodes, v->state.x, x.items);
-    dem_private_lattice_close(&x);
-    return status;
-}
-
-static dem_status fill_velocity(const frames *f, const view *v)
-{
-    spread(f->scratch, f->n_nodes, v->state.v, NULL);
+    const lattice_source lattice = dem_private_lattice_source(dem_simulation_model(simulation));
+    TRY(dem_private_positions(simulation, plane_of(f)));
+    TRY(dem_private_lattice_visit(&lattice, offsetof(dem_lattice, x), subtract, plane_of(f)));
+    spread(f);
     return DEM_OK;
 }
 
-/* The stresses have been computed before (frame_arrays_hand_out), since several arrays are made of them. */
-static dem_status fill_stress(const frames *f, const view *v)
+static dem_status fill_velocity(const frames *f, const dem_simulation *simulation)
 {
-    (void)v;
-    frame_arrays_spread_stress(f->scratch, f->n_nodes, f->stress);
+    TRY(dem_private_velocities(simulation, plane_of(f)));
+    spread(f);
     return DEM_OK;
 }
 
-static dem_status fill_von_mises(const frames *f, const view *v)
+/* The simulation computes stresses once for all arrays that are made of them. */
+static dem_status fill_stress(const frames *f, const dem_simulation *simulation)
 {
-    (void)v;
-    for (dem_index i = 0; i < f->n_nodes; i++) f->scratch[i] = dem_stress_von_mises(f->stress + 3 * i);
+    TRY(dem_simulation_stress(simulation, stresses_of(f)));
+    frame_arrays_spread_stress(f->scratch, f->n_nodes, stresses_of(f));
+    return DEM_OK;
+}
+
+static dem_status fill_von_mises(const frames *f, const dem_simulation *simulation)
+{
+    const double *stress = stresses_of(f);
+    TRY(dem_simulation_stress(simulation, stresses_of(f)));
+    for (dem_index i = 0; i < f->n_nodes; i++) f->scratch[i] = dem_stress_von_mises(stress + 3 * i);
     return DEM_OK;
 }
 
 /* The values only; directions are not written. */
-static dem_status fill_principal(const frames *f, const view *v)
+static dem_status fill_principal(const frames *f, const dem_simulation *simulation)
 {
     double direction[2];
-    (void)v;
-    for (dem_index i = 0; i < f->n_nodes; i++) dem_stress_principal(f->stress + 3 * i, f->scratch + 2 * i, direction);
+    const double *stress = stresses_of(f);
+    TRY(dem_simulation_stress(simulation, stresses_of(f)));
+    for (dem_index i = 0; i < f->n_nodes; i++) dem_stress_principal(stress + 3 * i, f->scratch + 2 * i, direction);
     return DEM_OK;
 }
 
-/* Two components of each node behind the room of three. */
-static dem_status fill_contact_force(const frames *f, const view *v)
+static dem_status fill_contact_force(const frames *f, const dem_simulation *simulation)
 {
-    double *plane = f->scratch + 3 * f->n_nodes;
-    TRY(dem_simulation_contact_forces(v->simulation, plane));
-    spread(f->scratch, f->n_nodes, plane, NULL);
+    TRY(dem_simulation_contact_forces(simulation, plane_of(f)));
+    spread(f);
     return DEM_OK;
 }
 
-/* They have been computed before, as stresses. */
-static dem_status fill_contact_pressure(const frames *f, const view *v)
+static dem_status fill_contact_pressure(const frames *f, const dem_simulation *simulation)
 {
-    (void)v;
-    memcpy(f->scratch, f->pressure, (size_t)f->n_nodes * sizeof *f->scratch);
-    return DEM_OK;
+    return dem_simulation_contact_pressures(simulation, f->scratch);
 }
 
 /* The simulation computes strains and forces of all springs, straight into the scratch. */
-static dem_status fill_strain(const frames *f, const view *v)
+static dem_status fill_strain(const frames *f, const dem_simulation *simulation)
 {
-    return dem_simulation_strains(v->simulation, f->scratch);
+    return dem_simulation_strains(simulation, f->scratch);
 }
 
-static dem_status fill_force(const frames *f, const view *v)
+static dem_status fill_force(const frames *f, const dem_simulation *simulation)
 {
-    return dem_simulation_forces(v->simulation, f->scratch);
+    return dem_simulation_forces(simulation, f->scratch);
 }
 
 /* Numbers of 8 bytes, in the room of reals. */
-static dem_status fill_fragment(const frames *f, const view *v)
+static dem_status fill_fragment(const frames *f, const dem_simulation *simulation)
 {
     dem_index n_fragments;
-    return dem_simulation_fragments(v->simulation, &n_fragments, (dem_index *)(void *)f->scratch);
+    return dem_simulation_fragments(simulation, &n_fragments, (dem_index *)(void *)f->scratch);
 }
 
-static dem_status fill_damage(const frames *f, const view *v)
+static dem_status fill_damage(const frames *f, const dem_simulation *simulation)
 {
-    return dem_simulation_damage(v->simulation, NULL, f->scratch);
+    return dem_simulation_damage(simulation, NULL, f->scratch);
 }
 
-static dem_status fill_broken(const frames *f, const view *v)
+static dem_status fill_broken(const frames *f, const dem_simulation *simulation)
 {
-    return dem_simulation_broken(v->simulation, NULL, (unsigned char *)f->scratch);
+    return dem_simulation_broken(simulation, NULL, (unsigned char *)f->scratch);
 }
 
-static dem_status fill_broken_triangles(const frames *f, const view *v)
+static dem_status fill_broken_triangles(const frames *f, const dem_simulation *simulation)
 {
-    return dem_simulation_broken(v->simulation, (unsigned char *)f->scratch, NULL);
+    return dem_simulation_broken(simulation, (unsigned char *)f->scratch, NULL);
 }
 
 /* From what is broken, in the scratch, to what VTK does not draw. */
@@ -147,16 +161,16 @@ static void hide(const frames *f, dem_index n)
     for (dem_index k = 0; k < n; k++) hidden[k] = hidden[k] != 0 ? VTK_HIDDEN_CELL : 0;
 }
 
-static dem_status fill_hidden(const frames *f, const view *v)
+static dem_status fill_hidden(const frames *f, const dem_simulation *simulation)
 {
-    TRY(fill_broken(f, v));
+    TRY(fill_broken(f, simulation));
     hide(f, f->n_springs);
     return DEM_OK;
 }
 
-static dem_status fill_hidden_triangles(const frames *f, const view *v)
+static dem_status fill_hidden_triangles(const frames *f, const dem_simulation *simulation)
 {
-    TRY(fill_broken_triangles(f, v));
+    TRY(fill_broken_triangles(f, simulation));
     hide(f, f->n_triangles);
     return DEM_OK;
 }
@@ -168,7 +182,7 @@ static const struct array {
     hdf5_kind kind;            /* HDF5_F32: as the options say */
     frame_of of;
     int components;
-    dem_status (*fill)(const frames *f, const view *v);
+    dem_status (*fill)(const frames *f, const dem_simulation *simulation);
 } arrays[] = {
     {GRID "Points", STEPS "/PointOffsets", 0, HDF5_F64, FRAME_OF_NODES, 3, fill_points},
     /* Nodes: what the options choose, in single precision unless they say otherwise. */
@@ -260,14 +274,9 @@ dem_status frame_arrays_make_scratch(frames *f)
 dem_status frame_arrays_hand_out(const frames *f, const dem_simulation *simulation, frame_arrays_taker *take,
                                  void *context)
 {
-    view v = {simulation, {.struct_size = sizeof v.state}};
-    TRY(dem_simulation_state(simulation, &v.state));
-    /* Stresses are computed once for all arrays made of them. */
-    if (f->fields & ANY_STRESS) TRY(dem_simulation_stress(simulation, f->stress));
-    if (f->fields & DEM_FIELD_CONTACT) TRY(dem_simulation_contact_pressures(simulation, f->pressure));
     for (int k = 0; k < FRAME_ARRAYS; k++) {
         if (!frame_arrays_is_wanted(f, k)) continue;
-        TRY(arrays[k].fill(f, &v));
+        TRY(arrays[k].fill(f, simulation));
         TRY(take(context, k, f->scratch));
     }
     return DEM_OK;

@@ -34,8 +34,6 @@ typedef struct frames {
     dem_index n;      /* frames in this file */
     double last;      /* time of the last frame, s */
     double *scratch;  /* the array that is being written: [6 n_nodes], [n_springs] or [n_triangles] */
-    double *stress;   /* [n_nodes][3] */
-    double *pressure; /* [n_nodes] of contact; NULL: not wanted */
 } frames;
 
 /** What an array has a row of: nothing, each frame, each node, spring or triangle of a frame. */

@@ -201,14 +201,7 @@ dem_status frames_init(frames *out, const dem_model *model, const dem_trajectory
                 .real = options->double_precision ? HDF5_F64 : HDF5_F32,
                 .deflate = options->deflate,
                 .n_stripes = options->writers > 1 ? options->writers : 0};
-    const size_t n = (size_t)size.n_nodes;
     TRY(frame_arrays_make_scratch(&f));
-    f.stress = calloc(n, 3 * sizeof *f.stress);
-    if (f.fields & DEM_FIELD_CONTACT) f.pressure = calloc(n, sizeof *f.pressure);
-    if (f.stress == NULL || (f.pressure == NULL && (f.fields & DEM_FIELD_CONTACT))) {
-        frames_free(&f);
-        return status_fail(DEM_ERROR_MEMORY, "out of memory for the frames of %lld nodes", (long long)size.n_nodes);
-    }
     *out = f;
     return DEM_OK;
 }
@@ -216,8 +209,6 @@ dem_status frames_init(frames *out, const dem_model *model, const dem_trajectory
 void frames_free(frames *f)
 {
     free(f->scratch);
-    free(f->stress);
-    free(f->pressure);
     *f = (frames){0};
 }
 
@@ -284,12 +275,12 @@ hsize_t frames_bytes(const frames *f)
  * f->n once the file has been closed without an error. */
 dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simulation *simulation)
 {
-    dem_state state = {.struct_size = sizeof state};
+    dem_progress now = {.struct_size = sizeof now};
     writing w = {f, file};
-    TRY(dem_simulation_state(simulation, &state));
+    TRY(dem_simulation_progress(simulation, &now));
     if (f->n_stripes == 0) TRY(frame_arrays_hand_out(f, simulation, append_array, &w));
-    TRY(append_energies(f, file, simulation, state.n_contacts));
-    TRY(append_steps(f, file, state.t));
+    TRY(append_energies(f, file, simulation, now.n_contacts));
+    TRY(append_steps(f, file, now.t));
     return write_count(f, file, f->n + 1);
 }
 

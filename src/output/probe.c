@@ -195,14 +195,16 @@ static void record_gauge(probe *p, const dem_state *state)
  * instant again, as a resumed run makes it, is no step. */
 dem_status probe_record(probe *p, const dem_simulation *simulation)
 {
+    dem_progress now = {.struct_size = sizeof now};
     dem_state state = {.struct_size = sizeof state};
-    (void)dem_simulation_state(simulation, &state);
-    if (p->seen && state.t == p->last) return DEM_OK;
+    (void)dem_simulation_progress(simulation, &now);
+    if (p->seen && now.t == p->last) return DEM_OK;
     p->seen = true;
-    p->last = state.t;
+    p->last = now.t;
     /* `left` is the number of steps to pass over before the next row. */
     if (p->left-- > 0) return DEM_OK;
     p->left = p->what.every - 1;
+    TRY(dem_simulation_state(simulation, &state));
     if (p->what.kind == DEM_PROBE_NODE) return record_node(p, simulation, &state);
     if (p->what.kind == DEM_PROBE_SPRING)
         record_spring(p, simulation, &state);

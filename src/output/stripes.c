@@ -100,7 +100,7 @@ static dem_status prepare(orders *o, const stripes *s, const frames *f, dem_inde
         what->kind = kind;
         what->stays_open = s->stay_open;
         what->whole = *f;
-        what->whole.scratch = what->whole.stress = what->whole.pressure = NULL;
+        what->whole.scratch = NULL;
         what->stripe = k;
         what->run = s->run;
         TRY(print_path(what->path, s, name_at_first(s, number, k)));

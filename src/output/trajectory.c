@@ -91,11 +91,11 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
 {
     dem_trajectory *t = context;
     frames *f = &t->rows.frames;
-    dem_state state = {.struct_size = sizeof state};
+    dem_progress now = {.struct_size = sizeof now};
     CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more frames", path_of(t));
-    TRY(dem_simulation_state(simulation, &state));
+    TRY(dem_simulation_progress(simulation, &now));
     /* frames.before counts those in segments, so that the first frame of a resumed run is compared as well. */
-    if (f->before + f->n > 0 && state.t == f->last) return DEM_OK;
+    if (f->before + f->n > 0 && now.t == f->last) return DEM_OK;
     TRY(fragment_table_measure(&t->rows.fragments, simulation));
     const hsize_t of_fragments = fragment_table_bytes(&t->rows.fragments);
     /* While the part is closed, for the file of one stripe may be this process's. */
@@ -106,7 +106,7 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
     t->part.helpers.simulation = NULL; /* it may end before the trajectory does */
     TRY(leave_part(t, status));
     f->n++;
-    f->last = state.t;
+    f->last = now.t;
     return DEM_OK;
 }
 

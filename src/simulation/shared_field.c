@@ -3,9 +3,20 @@
 
 #include <stdlib.h>
 
+#include "base/motion_source.h"
 #include "base/status.h"
 #include "domain/gather.h"
 #include "simulation/private.h"
+
+static dem_status fill_positions(const dem_simulation *s, void *out)
+{
+    return dem_private_positions(s, out);
+}
+
+static dem_status fill_velocities(const dem_simulation *s, void *out)
+{
+    return dem_private_velocities(s, out);
+}
 
 static dem_status fill_stress(const dem_simulation *s, void *out)
 {
@@ -30,6 +41,8 @@ static const struct field {
     size_t size; /* bytes of a row */
     dem_status (*fill)(const dem_simulation *s, void *out);
 } fields[] = {
+    [SHARED_FIELD_POSITIONS] = {NODES, 2 * sizeof(double), fill_positions},
+    [SHARED_FIELD_VELOCITIES] = {NODES, 2 * sizeof(double), fill_velocities},
     [SHARED_FIELD_STRESS] = {NODES, 3 * sizeof(double), fill_stress},
     [SHARED_FIELD_STRAINS] = {SPRINGS, sizeof(double), fill_strains},
     [SHARED_FIELD_FORCES] = {SPRINGS, sizeof(double), fill_forces},

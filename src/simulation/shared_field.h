@@ -8,6 +8,8 @@
 #include <dem/dem.h>
 
 typedef enum shared_field_kind {
+    SHARED_FIELD_POSITIONS, /* [nodes][2] doubles, as the next ones are */
+    SHARED_FIELD_VELOCITIES,
     SHARED_FIELD_STRESS,  /* [nodes][3] doubles */
     SHARED_FIELD_STRAINS, /* [springs] doubles, as the next one is */
     SHARED_FIELD_FORCES
