@@ -131,39 +131,68 @@ static dem_status unite(void *fragment, dem_index first, dem_index n, const void
     return DEM_OK;
 }
 
-static dem_status are_one(const lattice_source *from, bool *one)
+/* Numbers fragments from 0 on instead of naming them by their lowest nodes, which come first.  \return how many */
+static dem_index number_fragments(dem_index *fragment, dem_index n)
+{
+    dem_index n_fragments = 0;
+    for (dem_index i = 0; i < n; i++) fragment[i] = fragment[i] == i ? n_fragments++ : fragment[fragment[i]];
+    return n_fragments;
+}
+
+/* [fragments] each. */
+typedef struct weighing {
+    const dem_index *fragment; /* [n_nodes] number of the fragment of each */
+    exact_sum *sum;
+    dem_index *n;
+} weighing;
+
+static dem_status add_masses(void *context, dem_index first, dem_index n, const void *items)
+{
+    const weighing *w = context;
+    const double *mass = items;
+    for (dem_index i = 0; i < n; i++) {
+        exact_sum_add(&w->sum[w->fragment[first + i]], mass[i]);
+        w->n[w->fragment[first + i]]++;
+    }
+    return DEM_OK;
+}
+
+static void weigh_numbered(dem_fracture *out, const weighing *w, double *mass)
+{
+    exact_sum debris = {0};
+    for (dem_index k = 0; k < out->fragments; k++) {
+        mass[k] = exact_sum_value(&w->sum[k]);
+        if (w->n[k] == 1) exact_sum_add(&debris, mass[k]);
+    }
+    weigh(out, mass, out->fragments, exact_sum_value(&debris));
+}
+
+static dem_status measure_numbered(const lattice_source *from, const dem_index *fragment, dem_fracture *out)
+{
+    const size_t n = (size_t)out->fragments;
+    weighing w = {fragment, calloc(n, sizeof *w.sum), calloc(n, sizeof *w.n)};
+    double *mass = calloc(n, sizeof *mass);
+    const bool good = w.sum != NULL && w.n != NULL && mass != NULL;
+    dem_status status = good ? DEM_OK : status_fail(DEM_ERROR_MEMORY, "out of memory for %zu fragments", n);
+    if (good) status = dem_private_lattice_visit(from, offsetof(dem_lattice, mass), add_masses, &w);
+    if (status == DEM_OK) weigh_numbered(out, &w, mass);
+    free(w.sum);
+    free(w.n);
+    free(mass);
+    return status;
+}
+
+dem_status fragments_measure_source(const lattice_source *from, dem_fracture *out)
 {
     const dem_index n = from->lattice->n_nodes;
+    dem_fracture own = {.struct_size = sizeof own};
     dem_index *fragment = malloc((size_t)n * sizeof *fragment);
     CHECK_MEMORY(fragment);
     union_find_start(fragment, n);
-    const dem_status status = dem_private_lattice_visit(from, offsetof(dem_lattice, ends), unite, fragment);
-    *one = true;
-    for (dem_index i = 1; i < n; i++) *one = *one && fragment[i] != i;
+    dem_status status = dem_private_lattice_visit(from, offsetof(dem_lattice, ends), unite, fragment);
+    if (status == DEM_OK) own.fragments = number_fragments(fragment, n);
+    if (status == DEM_OK) status = measure_numbered(from, fragment, &own);
     free(fragment);
+    if (status == DEM_OK) *out = own;
     return status;
-}
-
-static dem_status measure_several(const lattice_source *from, dem_fracture *out)
-{
-    dem_lattice l = *from->lattice;
-    source_array ends, mass = {0};
-    dem_status status = dem_private_lattice_open(&ends, from, offsetof(dem_lattice, ends));
-    if (status == DEM_OK) status = dem_private_lattice_open(&mass, from, offsetof(dem_lattice, mass));
-    l.ends = (dem_index *)(uintptr_t)ends.items;
-    l.mass = (double *)(uintptr_t)mass.items;
-    if (status == DEM_OK) status = fragments_measure(&l, NULL, out);
-    dem_private_lattice_close(&ends);
-    dem_private_lattice_close(&mass);
-    return status;
-}
-
-dem_status fragments_measure_source(const lattice_source *from, double mass, dem_fracture *out)
-{
-    bool one = false;
-    TRY(are_one(from, &one));
-    if (!one) return measure_several(from, out);
-    *out = (dem_fracture){.struct_size = sizeof *out, .fragments = 1, .largest = 1.0, .median = mass};
-    out->debris = from->lattice->n_nodes == 1 ? 1.0 : 0.0;
-    return DEM_OK;
 }

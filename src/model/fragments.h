@@ -16,9 +16,8 @@ dem_index fragments_find(const dem_lattice *lattice, const double *integrity, de
 /** How much is broken, and into what.  \param elements  NULL: all are whole  \return DEM_ERROR_MEMORY */
 dem_status fragments_measure(const dem_lattice *lattice, const element_state *elements, dem_fracture *out);
 
-/** The same of a lattice of which all is whole, and ranks have the arrays.
- *  \param mass  of all, kg
- *  \return DEM_ERROR_MEMORY, as where there are several fragments, whose nodes then take 88 bytes each */
-dem_status fragments_measure_source(const lattice_source *from, double mass, dem_fracture *out);
+/** The same of a lattice of which all is whole, where arrays come chunk by chunk: it takes 8 bytes for a node, and 600
+ *  for a fragment.  \return DEM_ERROR_MEMORY */
+dem_status fragments_measure_source(const lattice_source *from, dem_fracture *out);
 
 #endif

@@ -388,7 +388,7 @@ static dem_status measure_fragments(const dem_simulation *s, const element_state
 {
     const lattice_source from = dem_private_lattice_source(s->model);
     if (from.whole == NULL) return fragments_measure(&s->model->lattice, elements, out);
-    return fragments_measure_source(&from, s->model->mass, out);
+    return fragments_measure_source(&from, out);
 }
 
 dem_status dem_simulation_fracture(const dem_simulation *s, dem_fracture *out)

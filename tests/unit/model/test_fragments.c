@@ -194,21 +194,21 @@ TEST(a_row_of_triangles_is_as_long_as_its_springs)
     assert_close(report.crack_length, 0.03, 0.0026);
 }
 
-/* Masses are whole numbers, so that their sums have no error. Of few springs there are many pieces, of many one. */
-TEST(arrays_piece_by_piece_give_the_same)
+/* Of few springs there are many pieces, of many one. */
+TEST(arrays_chunk_by_chunk_give_the_same)
 {
     random_lattice r = {.seed = 77};
     dem_index n_whole = 0;
     for (int k = 0; k < n_lattices; k++) {
-        double mass[max_nodes], all = 0.0;
+        double mass[max_nodes];
         dem_fracture one, other;
         make_random(&r);
-        for (dem_index i = 0; i < r.lattice.n_nodes; i++) all += mass[i] = (double)(1 + draw(&r, 9));
+        for (dem_index i = 0; i < r.lattice.n_nodes; i++) mass[i] = 0.1 * (double)(1 + draw(&r, 9));
         r.lattice.mass = mass;
         r.lattice.struct_size = sizeof r.lattice;
         const lattice_source from = {.lattice = &r.lattice};
         assert_ok(fragments_measure(&r.lattice, NULL, &one));
-        assert_ok(fragments_measure_source(&from, all, &other));
+        assert_ok(fragments_measure_source(&from, &other));
         assert_int_equal(one.fragments, other.fragments);
         assert_close(one.largest, other.largest, 0.0);
         assert_close(one.median, other.median, 0.0);
