@@ -20,7 +20,7 @@ void slab_plan_decide(deck *d, const command *c, double nodes)
 /* Rank 0 has its share, and what it shows and writes of the whole (docs/performance.md). */
 void slab_plan_share_memory(estimate *e, const deck *d)
 {
-    static const double of_whole = 230.0; /* bytes a node */
+    static const double of_whole = 120.0; /* bytes a node */
     if (d->slabs.n > 0) e->memory = fmin(e->memory, e->memory / (double)d->slabs.n + of_whole * e->nodes);
 }
 

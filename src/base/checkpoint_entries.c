@@ -29,11 +29,13 @@ enum { FORMAT = 1, NAME = 32, UNIT = 8 };
 static const char magic[8] = "demrec\r\n";
 static const uint32_t byte_order = 0x01020304;
 
-/* An entry in memory. `capacity` is at least size + 1, so that an entry of no bytes has its memory, too. */
+/* An entry in memory. `capacity` is at least size + 1, so that an entry of no bytes has its memory, too; or 0, if its
+ * rows are elsewhere. */
 typedef struct entry {
     char name[NAME];
     size_t size, capacity; /* bytes */
     unsigned char *data;
+    checkpoint_rows away; /* without `visit`: they are in `data` */
 } entry;
 
 struct dem_checkpoint {
@@ -117,6 +119,35 @@ static dem_status make(dem_checkpoint *checkpoint, const char *name, size_t size
     return DEM_OK;
 }
 
+/* Copies what is elsewhere. */
+static dem_status bring(entry *e)
+{
+    if (e->away.visit == NULL) return DEM_OK;
+    TRY(reserve(e, e->size));
+    rows_copy all = {e->away.size, e->data};
+    TRY(e->away.visit(e->away.context, rows_taker_copy, &all));
+    e->away.visit = NULL;
+    return DEM_OK;
+}
+
+dem_status checkpoint_entries_bring(dem_checkpoint *checkpoint)
+{
+    for (dem_index k = 0; k < checkpoint->n; k++) TRY(bring(&checkpoint->entries[k]));
+    return DEM_OK;
+}
+
+dem_status checkpoint_entries_refer(dem_checkpoint *checkpoint, const char *name, const checkpoint_rows *rows)
+{
+    entry *e = find(checkpoint, name);
+    if (e == NULL) TRY(make(checkpoint, name, 0, &e));
+    free(e->data);
+    e->data = NULL;
+    e->capacity = 0;
+    e->size = (size_t)rows->n * rows->size;
+    e->away = *rows;
+    return DEM_OK;
+}
+
 /* Memory is asked for before the old bytes are touched. */
 dem_status checkpoint_entries_make(dem_checkpoint *checkpoint, const char *name, size_t size, void **data)
 {
@@ -125,6 +156,7 @@ dem_status checkpoint_entries_make(dem_checkpoint *checkpoint, const char *name,
         TRY(make(checkpoint, name, size, &e));
     else
         TRY(reserve(e, size));
+    e->away.visit = NULL;
     e->size = size;
     *data = e->data;
     return DEM_OK;
@@ -144,9 +176,10 @@ dem_status dem_checkpoint_put(dem_checkpoint *checkpoint, const char *name, cons
 
 const void *dem_checkpoint_find(const dem_checkpoint *checkpoint, const char *name, size_t *size)
 {
-    const entry *e = find(checkpoint, name);
-    *size = e != NULL ? e->size : 0;
-    return e != NULL ? e->data : NULL;
+    entry *e = find(checkpoint, name);
+    const bool is_here = e != NULL && bring(e) == DEM_OK;
+    *size = is_here ? e->size : 0;
+    return is_here ? e->data : NULL;
 }
 
 /* The size must be exactly what the reader expects: a file of another version is noticed here. */
@@ -154,8 +187,9 @@ dem_status dem_checkpoint_get(const dem_checkpoint *checkpoint, const char *name
 {
     CHECK(checkpoint != NULL && name != NULL && (data != NULL || size == 0), DEM_ERROR_ARGUMENT,
           "dem_checkpoint_get: an argument is NULL");
-    const entry *e = find(checkpoint, name);
+    entry *e = find(checkpoint, name);
     CHECK(e != NULL, DEM_ERROR_IO, "the checkpoint has no %s", name);
+    TRY(bring(e));
     CHECK(e->size == size, DEM_ERROR_IO, "the checkpoint has %zu bytes of %s, %zu are expected", e->size, name, size);
     if (size > 0) memcpy(data, e->data, size);
     return DEM_OK;
@@ -164,8 +198,10 @@ dem_status dem_checkpoint_get(const dem_checkpoint *checkpoint, const char *name
 dem_status checkpoint_entries_choose(dem_checkpoint *into, const dem_checkpoint *from, checkpoint_entries_choice *takes)
 {
     for (dem_index k = 0; k < from->n; k++) {
-        const entry *e = &from->entries[k];
-        if (takes == NULL || takes(e->name)) TRY(dem_checkpoint_put(into, e->name, e->data, e->size));
+        entry *e = &from->entries[k];
+        if (takes != NULL && !takes(e->name)) continue;
+        TRY(bring(e));
+        TRY(dem_checkpoint_put(into, e->name, e->data, e->size));
     }
     return DEM_OK;
 }
@@ -175,17 +211,22 @@ dem_status checkpoint_entries_copy(dem_checkpoint *into, const dem_checkpoint *f
     return checkpoint_entries_choose(into, from, NULL);
 }
 
-dem_status checkpoint_entries_move(dem_checkpoint *into, dem_checkpoint *from)
+dem_status checkpoint_entries_move(dem_checkpoint *into, dem_checkpoint *from, checkpoint_entries_choice *takes)
 {
+    dem_index n_left = 0;
     for (dem_index k = 0; k < from->n; k++) {
         entry *moved = &from->entries[k], *e = find(into, moved->name);
+        if (takes != NULL && !takes(moved->name)) {
+            from->entries[n_left++] = *moved;
+            continue;
+        }
         if (e == NULL) TRY(make(into, moved->name, 0, &e));
         free(e->data);
         *e = *moved;
         moved->data = NULL;
         moved->size = moved->capacity = 0;
     }
-    from->n = 0;
+    from->n = n_left;
     return DEM_OK;
 }
 
@@ -269,6 +310,12 @@ typedef struct stream {
     uLong checksum;
 } stream;
 
+/* Where rows of an entry go that are handed over. */
+typedef struct rows_stream {
+    stream *to;
+    size_t size; /* bytes of a row */
+} rows_stream;
+
 /* Writes bytes and adds them to the checksum. Empty data is left out, since it may come with a null pointer. */
 static dem_status put(stream *s, const void *data, size_t size)
 {
@@ -298,6 +345,19 @@ static header header_of(const dem_checkpoint *checkpoint)
     return h;
 }
 
+static dem_status put_rows(void *context, dem_index first, dem_index n, const void *rows)
+{
+    const rows_stream *s = context;
+    (void)first;
+    return put(s->to, rows, (size_t)n * s->size);
+}
+
+static dem_status put_data(stream *s, const entry *e)
+{
+    rows_stream to = {s, e->away.size};
+    return e->away.visit != NULL ? e->away.visit(e->away.context, put_rows, &to) : put(s, e->data, e->size);
+}
+
 /* Padding is written as zeros, so that equal checkpoints are equal files. */
 static dem_status put_entries(stream *s, const dem_checkpoint *checkpoint)
 {
@@ -307,7 +367,7 @@ static dem_status put_entries(stream *s, const dem_checkpoint *checkpoint)
         head first = {.size = e->size};
         memcpy(first.name, e->name, NAME);
         TRY(put(s, &first, sizeof first));
-        TRY(put(s, e->data, e->size));
+        TRY(put_data(s, e));
         TRY(put(s, zeros, padding(e->size)));
     }
     return DEM_OK;

@@ -5,6 +5,7 @@
 
 #include "base/checkpoint_entries.h"
 #include "base/status.h"
+#include "simulation/leader_checkpoint.h"
 #include "simulation/rank_call.h"
 
 void leader_observers_show(const led_run *l)
@@ -74,12 +75,11 @@ static dem_status lead_frame(void *context, const dem_simulation *part)
     return release(l, observers_frame(&l->whole->observers, f->observer, l->whole));
 }
 
-/* The whole's is that of the part, which has gathered all nodes. The part has no use for it: it goes on from that of
- * the whole. */
-static dem_status take_checkpoint(dem_simulation *whole, dem_checkpoint *from)
+static dem_status take_checkpoint(led_run *l, dem_checkpoint *from)
 {
+    dem_simulation *whole = l->whole;
     whole->has_checkpoint = false;
-    TRY(checkpoint_entries_move(whole->checkpoint, from));
+    TRY(leader_checkpoint_take(l, from));
     whole->has_checkpoint = true;
     return observers_checkpoint(&whole->observers, whole, whole->checkpoint);
 }
@@ -89,6 +89,7 @@ void leader_observers_look_ahead(led_run *l, const dem_checkpoint *checkpoint)
     const dem_lattice *lattice = &l->whole->model->lattice;
     near_contact_state state = {l->whole->t, lattice->position, lattice->velocity};
     size_t size;
+    if (l->near.model == NULL) return;
     if (checkpoint != NULL) {
         state.x = dem_checkpoint_find(checkpoint, "state", &size);
         state.v = state.x + state_velocities(&l->whole->layout);
@@ -105,7 +106,7 @@ static dem_status lead_checkpoint(void *context, const dem_simulation *part, dem
     (void)part;
     (void)hold(l);
     led_ranks_pass_checkpoint(l);
-    dem_status status = take_checkpoint(l->whole, checkpoint);
+    dem_status status = take_checkpoint(l, checkpoint);
     if (status == DEM_OK) leader_observers_look_ahead(l, l->whole->checkpoint);
     l->weighs_anew = status == DEM_OK && pays;
     l->shares_anew =

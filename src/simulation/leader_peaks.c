@@ -57,6 +57,24 @@ dem_status leader_peaks_visit_springs(const dem_simulation *whole, const dem_pea
     return visit(whole, peaks, RANK_CALL_PEAKS_SPRINGS, take, context);
 }
 
+dem_status leader_peaks_keep(const dem_simulation *whole, const dem_peaks *peaks)
+{
+    led_run *l = whole->leads;
+    return pass(l, RANK_CALL_PEAKS_KEEP, shared_peaks_number(&l->peaks, peaks));
+}
+
+dem_status leader_peaks_visit_kept_nodes(void *peaks, rows_taker *take, void *taker)
+{
+    const dem_peaks *p = peaks;
+    return visit(p->away, p, RANK_CALL_PEAKS_KEPT_NODES, take, taker);
+}
+
+dem_status leader_peaks_visit_kept_springs(void *peaks, rows_taker *take, void *taker)
+{
+    const dem_peaks *p = peaks;
+    return visit(p->away, p, RANK_CALL_PEAKS_KEPT_SPRINGS, take, taker);
+}
+
 dem_status leader_peaks_bring_nodes(dem_peaks *peaks)
 {
     TRY(peaks_make_node_room(peaks));

@@ -14,6 +14,13 @@ dem_status leader_peaks_visit_nodes(const dem_simulation *whole, const dem_peaks
 dem_status leader_peaks_visit_springs(const dem_simulation *whole, const dem_peaks *peaks, rows_taker *take,
                                       void *context);
 
+/** The parts keep theirs as entries of the checkpoint that is being taken; and hand these over, as
+ *  checkpoint_entries_refer() has it.
+ *  \param peaks  dem_peaks */
+dem_status leader_peaks_keep(const dem_simulation *whole, const dem_peaks *peaks);
+dem_status leader_peaks_visit_kept_nodes(void *peaks, rows_taker *take, void *taker);
+dem_status leader_peaks_visit_kept_springs(void *peaks, rows_taker *take, void *taker);
+
 /** Copies them to the program's, where room is made.  \return as before, and DEM_ERROR_MEMORY */
 dem_status leader_peaks_bring_nodes(dem_peaks *peaks);
 dem_status leader_peaks_bring_springs(dem_peaks *peaks);

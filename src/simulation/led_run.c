@@ -10,6 +10,7 @@
 #include "base/reduce.h"
 #include "base/status.h"
 #include "model/shared_model.h"
+#include "simulation/leader_checkpoint.h"
 #include "simulation/leader_observers.h"
 #include "simulation/leader_peaks.h"
 #include "simulation/rank_shares.h"
@@ -250,9 +251,15 @@ static void take_part(led_run *l, const rank_call *o)
     case RANK_CALL_GATHER:
         (void)gather(l);
         break;
+    case RANK_CALL_STATE:
+        (void)leader_checkpoint_answer(l, o->number, NULL, NULL);
+        break;
     case RANK_CALL_PEAKS_TAKE:
     case RANK_CALL_PEAKS_NODES:
     case RANK_CALL_PEAKS_SPRINGS:
+    case RANK_CALL_PEAKS_KEEP:
+    case RANK_CALL_PEAKS_KEPT_NODES:
+    case RANK_CALL_PEAKS_KEPT_SPRINGS:
     case RANK_CALL_PEAKS_LOOK:
         (void)shared_peaks_answer(&l->peaks, l->part, o);
         break;
@@ -372,6 +379,7 @@ static dem_status begin_parts(led_run *l, dem_checkpoint *entries, const dem_che
 {
     if (l->part != NULL) {
         TRY(leader_peaks_bring_all(l));
+        TRY(checkpoint_entries_bring(l->whole->checkpoint));
         (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_DROP});
         drop(l);
     }

@@ -76,14 +76,14 @@ static dem_status pass(dem_peaks *p, const checkpoint_entries_way *way)
     return checkpoint_entries_pass(way, entry_springs, p->springs, (size_t)p->n_springs * sizeof *p->springs);
 }
 
-/* From the ranks that have them to the checkpoint, and nowhere else. */
-static dem_status bring_into(const dem_peaks *p, dem_checkpoint *checkpoint)
+/* The ranks that have them keep them as they are now. */
+static dem_status refer(dem_peaks *p, dem_checkpoint *checkpoint)
 {
-    rows_copy of_nodes = {.size = sizeof *p->nodes}, of_springs = {.size = sizeof *p->springs};
-    TRY(checkpoint_entries_make(checkpoint, entry_nodes, (size_t)p->n_nodes * of_nodes.size, &of_nodes.out));
-    TRY(checkpoint_entries_make(checkpoint, entry_springs, (size_t)p->n_springs * of_springs.size, &of_springs.out));
-    TRY(leader_peaks_visit_nodes(p->away, p, rows_taker_copy, &of_nodes));
-    return leader_peaks_visit_springs(p->away, p, rows_taker_copy, &of_springs);
+    const checkpoint_rows of_nodes = {leader_peaks_visit_kept_nodes, p, sizeof *p->nodes, p->n_nodes};
+    const checkpoint_rows of_springs = {leader_peaks_visit_kept_springs, p, sizeof *p->springs, p->n_springs};
+    TRY(leader_peaks_keep(p->away, p));
+    TRY(checkpoint_entries_refer(checkpoint, entry_nodes, &of_nodes));
+    return checkpoint_entries_refer(checkpoint, entry_springs, &of_springs);
 }
 
 /* The observer's checkpoint. */
@@ -93,7 +93,7 @@ static dem_status remember(void *context, const dem_simulation *simulation, dem_
     dem_peaks *p = context;
     (void)simulation;
     TRY(checkpoint_entries_pass(&way, entry_every, &p->every, sizeof p->every));
-    return p->are_away ? bring_into(p, checkpoint) : pass(p, &way);
+    return p->are_away ? refer(p, checkpoint) : pass(p, &way);
 }
 
 /* ---- public ---- */

@@ -15,6 +15,7 @@ typedef enum rank_call_kind {
     RANK_CALL_OBSERVE, /* it, with frames at these intervals, and what the number says */
     RANK_CALL_ADVANCE, /* to t */
     RANK_CALL_GATHER,  /* positions and velocities, */
+    RANK_CALL_STATE,   /* those of the last checkpoint (simulation/leader_checkpoint.h), */
     RANK_CALL_ARRAY,   /* or an array of the lattice, of this number in lattice_arrays */
     RANK_CALL_ENERGY,
     RANK_CALL_STRAIN,
@@ -29,12 +30,15 @@ typedef enum rank_call_kind {
     RANK_CALL_PEAKS_TAKE,    /* of this number, from rank 0 (simulation/shared_peaks.h); */
     RANK_CALL_PEAKS_NODES,   /* the other way round, those of nodes */
     RANK_CALL_PEAKS_SPRINGS, /* or of springs; */
-    RANK_CALL_PEAKS_LOOK,    /* or look for larger ones */
-    RANK_CALL_SHARES,        /* of the model (simulation/rank_shares.h) */
-    RANK_CALL_PACK,          /* so many sections of a file */
-    RANK_CALL_OBEY,          /* orders of rank 0 (simulation/shared_orders.h) */
-    RANK_CALL_DROP,          /* the simulation */
-    RANK_CALL_END            /* no more calls; `number` is for the program */
+    RANK_CALL_PEAKS_KEEP,    /* for the checkpoint that is being taken, of which then are asked */
+    RANK_CALL_PEAKS_KEPT_NODES,
+    RANK_CALL_PEAKS_KEPT_SPRINGS,
+    RANK_CALL_PEAKS_LOOK, /* or look for larger ones */
+    RANK_CALL_SHARES,     /* of the model (simulation/rank_shares.h) */
+    RANK_CALL_PACK,       /* so many sections of a file */
+    RANK_CALL_OBEY,       /* orders of rank 0 (simulation/shared_orders.h) */
+    RANK_CALL_DROP,       /* the simulation */
+    RANK_CALL_END         /* no more calls; `number` is for the program */
 } rank_call_kind;
 
 /* Bits: whether a simulation goes on from a checkpoint, and whether it is of the model of slabs that there is. */

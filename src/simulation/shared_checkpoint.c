@@ -23,7 +23,7 @@ static dem_status make_state(dem_checkpoint *checkpoint, const char *name, const
     return DEM_OK;
 }
 
-dem_status shared_checkpoint_gather(const dem_simulation *s, dem_checkpoint *checkpoint)
+static dem_status gather_state(const dem_simulation *s, dem_checkpoint *checkpoint)
 {
     const dem_model *m = s->model;
     const state_layout *of = &s->shared.whole;
@@ -36,11 +36,15 @@ dem_status shared_checkpoint_gather(const dem_simulation *s, dem_checkpoint *che
     status = reduce_status(m->ranks, status, 0.0);
     if (status == DEM_OK) status = gather_rows(m->ranks, &nodes, row, s->y, whole);
     if (status == DEM_OK) status = gather_rows(m->ranks, &nodes, row, v, is_root ? whole + state_velocities(of) : NULL);
-    if (status == DEM_OK && is_root) {
-        state_copy_quadratures(whole, of, s->y, &s->layout);
-        status = shared_breaks_expand(s, checkpoint);
-    }
-    return reduce_status(m->ranks, status, 0.0);
+    if (status == DEM_OK && is_root) state_copy_quadratures(whole, of, s->y, &s->layout);
+    return status;
+}
+
+dem_status shared_checkpoint_gather(const dem_simulation *s, dem_checkpoint *checkpoint)
+{
+    const ranks *r = s->model->ranks;
+    if (!s->is_led) TRY(gather_state(s, checkpoint));
+    return reduce_status(r, r->rank == 0 ? shared_breaks_expand(s, checkpoint) : DEM_OK, 0.0);
 }
 
 /* ---- the other way round ---- */

@@ -6,7 +6,8 @@
 
 #include "simulation/private.h"
 
-/** Makes rank 0's checkpoint of its part one of the whole. Collective.  \return DEM_ERROR_MEMORY */
+/** Makes rank 0's checkpoint of its part one of the whole, but for the state of a part of a run that rank 0 leads
+ *  (simulation/leader_checkpoint.h). Collective.  \return DEM_ERROR_MEMORY */
 dem_status shared_checkpoint_gather(const dem_simulation *s, dem_checkpoint *checkpoint);
 
 /** Makes a checkpoint of each rank's part from one of the whole. Collective.

@@ -2,6 +2,9 @@
 /* Parts have entries of ghosts, too, which nobody asks for. */
 #include "simulation/shared_peaks.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 #include "base/status.h"
 #include "domain/gather.h"
 #include "simulation/private.h"
@@ -34,6 +37,21 @@ static dem_status hand_over(const shared_peaks *s, const dem_model *m, const dem
     return gather_chunks(m->ranks, &items, sizeof *part->springs, part->springs, s->take, s->context);
 }
 
+static dem_status copy(void **to, const void *from, size_t size)
+{
+    free(*to);
+    *to = malloc(size + 1);
+    CHECK(*to != NULL, DEM_ERROR_MEMORY, "out of memory for the peaks of a checkpoint");
+    memcpy(*to, from, size);
+    return DEM_OK;
+}
+
+static dem_status keep(dem_peaks *kept, const dem_peaks *part)
+{
+    TRY(copy((void **)&kept->nodes, part->nodes, (size_t)part->n_nodes * sizeof *part->nodes));
+    return copy((void **)&kept->springs, part->springs, (size_t)part->n_springs * sizeof *part->springs);
+}
+
 /* All ranks have peaks afterwards, or none. */
 static dem_status begin(shared_peaks *s, const dem_model *m, int k)
 {
@@ -51,7 +69,7 @@ static dem_status begin(shared_peaks *s, const dem_model *m, int k)
 dem_status shared_peaks_answer(shared_peaks *s, const dem_simulation *part, const rank_call *what)
 {
     const dem_model *m = part->model;
-    dem_peaks *own = s->part[what->number];
+    dem_peaks *own = s->part[what->number], *kept = &s->kept[what->number];
     switch (what->kind) {
     case RANK_CALL_PEAKS_TAKE:
         return begin(s, m, (int)what->number);
@@ -59,6 +77,12 @@ dem_status shared_peaks_answer(shared_peaks *s, const dem_simulation *part, cons
         return hand_over(s, m, own, true);
     case RANK_CALL_PEAKS_SPRINGS:
         return hand_over(s, m, own, false);
+    case RANK_CALL_PEAKS_KEEP:
+        return reduce_status(m->ranks, keep(kept, own), 0.0);
+    case RANK_CALL_PEAKS_KEPT_NODES:
+        return hand_over(s, m, kept, true);
+    case RANK_CALL_PEAKS_KEPT_SPRINGS:
+        return hand_over(s, m, kept, false);
     default:
         return reduce_status(m->ranks, peaks_look(own, part), 0.0);
     }
@@ -69,5 +93,6 @@ void shared_peaks_drop(shared_peaks *s)
     for (int k = 0; k < OBSERVERS_MOST; k++) {
         dem_peaks_destroy(s->part[k]);
         s->part[k] = NULL;
+        peaks_give_up(&s->kept[k]);
     }
 }

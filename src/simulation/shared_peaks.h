@@ -12,6 +12,7 @@
 typedef struct shared_peaks {
     dem_peaks *whole[OBSERVERS_MOST]; /* the program's, on rank 0; NULL: none */
     dem_peaks *part[OBSERVERS_MOST];  /* of the part; NULL: none yet */
+    dem_peaks kept[OBSERVERS_MOST];   /* their entries in the last checkpoint */
     rows_taker *take;                 /* of what the call in hand hands over, on rank 0, */
     void *context;                    /* and its argument */
 } shared_peaks;

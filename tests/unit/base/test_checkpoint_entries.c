@@ -140,6 +140,66 @@ TEST(some_entries_are_copied)
     assert_non_null(dem_checkpoint_find(into, "nothing", &size));
     (void)dem_checkpoint_find(into, "numbers", &size);
     assert_int_equal(size, 8000);
+    assert_ok(checkpoint_entries_move(into, from, is_no_word));
+    assert_null(dem_checkpoint_find(from, "numbers", &size));
+    assert_non_null(dem_checkpoint_find(from, "word", &size));
+    assert_ok(checkpoint_entries_move(into, from, NULL));
+    check(into);
+}
+
+enum { AWAY = 1000 };
+
+typedef struct elsewhere {
+    double number[AWAY];
+    int n_visits;
+    dem_status fails;
+} elsewhere;
+
+static dem_status visit(void *context, rows_taker *take, void *taker)
+{
+    elsewhere *e = context;
+    e->n_visits++;
+    const dem_status status = take(taker, 0, 300, e->number);
+    if (status != DEM_OK || e->fails != DEM_OK) return status != DEM_OK ? status : e->fails;
+    return take(taker, 300, AWAY - 300, e->number + 300);
+}
+
+static void refer_numbers(dem_checkpoint *checkpoint, elsewhere *e)
+{
+    const checkpoint_rows rows = {visit, e, sizeof *e->number, AWAY};
+    assert_ok(checkpoint_entries_refer(checkpoint, "numbers", &rows));
+}
+
+/* A file has what is elsewhere without a copy of it here; who looks at it makes one. */
+TEST(entries_may_be_elsewhere)
+{
+    CLEANUP(free_checkpoint) dem_checkpoint *checkpoint = make();
+    CLEANUP(free_checkpoint) dem_checkpoint *same = make();
+    elsewhere e = {.fails = DEM_OK};
+    size_t size;
+    for (int k = 0; k < AWAY; k++) e.number[k] = (double)(k + 1);
+    refer_numbers(checkpoint, &e);
+    assert_ok(dem_checkpoint_write(checkpoint, FILE_NAME));
+    assert_ok(dem_checkpoint_write(same, "test_checkpoint.good"));
+    assert_same_files(FILE_NAME, "test_checkpoint.good");
+    (void)unlink("test_checkpoint.good");
+    assert_int_equal(e.n_visits, 1);
+    check(checkpoint);
+    assert_int_equal(e.n_visits, 2);
+    check(checkpoint);
+    assert_int_equal(e.n_visits, 2);
+    refer_numbers(checkpoint, &e);
+    assert_ok(checkpoint_entries_bring(checkpoint));
+    assert_int_equal(e.n_visits, 3);
+    check(checkpoint);
+    assert_int_equal(e.n_visits, 3);
+    e.fails = DEM_ERROR_MEMORY;
+    refer_numbers(checkpoint, &e);
+    assert_int_equal(dem_checkpoint_write(checkpoint, FILE_NAME), DEM_ERROR_MEMORY);
+    assert_null(dem_checkpoint_find(checkpoint, "numbers", &size));
+    assert_int_equal(checkpoint_entries_bring(checkpoint), DEM_ERROR_MEMORY);
+    assert_ok(dem_checkpoint_put(checkpoint, "numbers", e.number, sizeof e.number));
+    check(checkpoint);
 }
 
 /* In the order that they had, as files of them are compared; what the other one had besides stays. */
@@ -155,7 +215,7 @@ TEST(entries_are_moved_in_their_order)
     assert_ok(checkpoint_entries_copy(copy, into));
     assert_ok(checkpoint_entries_copy(copy, from));
     const void *numbers = dem_checkpoint_find(from, "numbers", &size);
-    assert_ok(checkpoint_entries_move(into, from));
+    assert_ok(checkpoint_entries_move(into, from, NULL));
     assert_null(dem_checkpoint_find(from, "numbers", &size));
     assert_ptr_equal(dem_checkpoint_find(into, "numbers", &size), numbers);
     check(into);
@@ -165,7 +225,7 @@ TEST(entries_are_moved_in_their_order)
     assert_same_files(FILE_NAME, "test_checkpoint.good");
     assert_ok(checkpoint_entries_make(from, "numbers", 3, &data));
     memcpy(data, "abc", 3);
-    assert_ok(checkpoint_entries_move(into, from));
+    assert_ok(checkpoint_entries_move(into, from, NULL));
     assert_memory_equal(dem_checkpoint_find(into, "numbers", &size), "abc", 3);
     assert_int_equal(size, 3);
 }
