@@ -451,7 +451,8 @@ static bool builds(job *j)
 {
     namelist_errors errors = {0};
     const dem_status status = build(j);
-    const bool is_created = j->simulation != NULL; /* then what fails is to share it out */
+    /* What fails then is to share it out; but what ranks have in slabs is only seen there. */
+    const bool is_created = j->simulation != NULL && !j->deck.slabs.are_made;
     if (status != DEM_ERROR_MODEL || j->model == NULL || is_created) return passes(j, status, j->deck.path);
     refusal_explain(&errors, &j->deck, j->model, &j->options);
     report_errors(j, EXIT_INVALID, &errors);

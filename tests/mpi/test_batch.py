@@ -501,6 +501,16 @@ class InSlabs(Runs):
             self.assertIn("of slabs", log)
         self.assert_same("one", "parts")
 
+    def test_what_is_refused_has_the_line_of_one_process(self):
+        """Bodies that overlap are known of by the ranks alone."""
+        said = []
+        for n, more in ((0, ()), (3, ("--slab-nodes", "1"))):
+            code, _, errors = self.run_on(n, "ranks", "--set", "body(1).position=0,0.02", *more, deck="several.nml")
+            self.assertEqual(code, 3)
+            said.append([line for line in errors.splitlines() if line.startswith("several.nml")])
+        self.assertRegex(said[0][0], r"^several.nml:10:1: error: .* of body 3 .* must not cross at the start")
+        self.assertEqual(*said)
+
     def test_a_run_ends_at_rest_as_that_of_one_process(self):
         stepped = ("--set", "body.outline=lattice", "--set", "output.measure=false")
         self.assertEqual(self.run_on(0, "one", *stepped, deck="plate.nml")[0], 0)
