@@ -27,7 +27,7 @@ void slab_plan_share_memory(estimate *e, const deck *d)
 dem_status slab_plan_model(dem_model **out, const deck *d, const rank_group *ranks)
 {
     size_t size = 0;
-    void *recipe = deck_slabs_recipe(&size, &d->slabs, d->n_bodies, d->echo);
+    void *recipe = deck_slabs_recipe(&size, &d->slabs, d->echo);
     if (recipe == NULL) return DEM_ERROR_MEMORY;
     const slab_recipe all = {.bytes = recipe,
                              .size = size,

@@ -492,7 +492,8 @@ dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const body_key
     dem_status status = make_shape(&f);
     f.shape.numbered = false;
     if (status == DEM_OK)
-        status = report(&f, dem_private_slab_between(slab, &f.shape, range.begin, range.end), f.body->place, "");
+        status =
+            report(&f, dem_private_slab_between(slab, &f.shape, body->rows, range.begin, range.end), f.body->place, "");
     if (status == DEM_OK) status = weigh(&f);
     if (status == DEM_OK && slab->n_own > 0) status = jitter(&f, slab);
     if (status != DEM_OK) dem_slab_free(slab);

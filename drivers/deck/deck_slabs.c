@@ -57,12 +57,13 @@ typedef struct maker {
     const slab_body *bodies; /* [number of &body groups] */
     const dem_index *held;   /* [n_held] as deck_slabs has them */
     dem_index n_held;
+    dem_index **rows; /* [number of &body groups] as body_keys has them */
     namelist_errors *errors;
 } maker;
 
 static dem_status triangulate(dem_slab *out, body_geometry *geometry, const maker *m, size_t k, body_range range)
 {
-    return body_geometry_slab(out, geometry, &(body_keys){m->groups, k, m->folder}, range, m->errors);
+    return body_geometry_slab(out, geometry, &(body_keys){m->groups, k, m->folder, &m->rows[k]}, range, m->errors);
 }
 
 /* Assembled, where the body is to be but for its clearance and copies, as it moves there. */
@@ -247,10 +248,21 @@ static dem_status make_each(dem_index n, const maker *m, deck_slabs_visitor *vis
     return status;
 }
 
+static maker maker_of(const deck_slabs *slabs, const body_scene *scene, namelist_errors *errors)
+{
+    return (maker){.groups = scene->groups,
+                   .folder = scene->folder,
+                   .bodies = slabs->bodies,
+                   .held = slabs->held,
+                   .n_held = slabs->n_held,
+                   .rows = slabs->rows,
+                   .errors = errors};
+}
+
 dem_status deck_slabs_each(const deck_slabs *slabs, const body_scene *scene, deck_slabs_visitor *visit, void *visitor)
 {
     namelist_errors errors = {0};
-    const maker m = {scene->groups, scene->folder, slabs->bodies, slabs->held, slabs->n_held, &errors};
+    const maker m = maker_of(slabs, scene, &errors);
     const dem_status status = make_each(slabs->n, &m, visit, visitor);
     namelist_errors_free(&errors);
     return status;
@@ -389,9 +401,11 @@ bool deck_slabs_look(deck_slabs_found *out, deck_slabs *slabs, const body_scene 
     *out = (deck_slabs_found){.n = n, .at_once = needs_one_look(groups)};
     out->bodies = calloc(n + 1, sizeof *out->bodies);
     out->strips = calloc(n + 1, sizeof *out->strips);
+    slabs->n_bodies = n;
     slabs->bodies = calloc(n + 1, sizeof *slabs->bodies);
-    const maker m = {groups, scene->folder, slabs->bodies, NULL, 0, &errors};
-    const bool good = out->bodies != NULL && out->strips != NULL && slabs->bodies != NULL;
+    slabs->rows = calloc(n + 1, sizeof *slabs->rows);
+    const maker m = maker_of(slabs, scene, &errors);
+    const bool good = out->bodies != NULL && out->strips != NULL && slabs->bodies != NULL && slabs->rows != NULL;
     for (size_t k = 0; k < n && good; k++) out->strips[k] = dem_lattice_empty();
     const dem_status status = good ? look_at_all(out, slabs, &m) : DEM_ERROR_MEMORY;
     slabs->are_made = status == DEM_OK;
@@ -421,8 +435,15 @@ bool deck_slabs_hold(deck_slabs *slabs, const dem_boundary *list, dem_index n)
     return true;
 }
 
+static void free_rows(dem_index **rows, size_t n)
+{
+    for (size_t k = 0; k < n && rows != NULL; k++) free(rows[k]);
+    free(rows);
+}
+
 void deck_slabs_free(deck_slabs *slabs)
 {
+    free_rows(slabs->rows, slabs->n_bodies);
     free(slabs->bodies);
     free(slabs->held);
     *slabs = (deck_slabs){0};
@@ -447,13 +468,13 @@ static const char *text_in(const recipe *r)
     return (const char *)(held_in(r) + r->n_held);
 }
 
-void *deck_slabs_recipe(size_t *size, const deck_slabs *slabs, size_t n_bodies, const char *echo)
+void *deck_slabs_recipe(size_t *size, const deck_slabs *slabs, const char *echo)
 {
-    const size_t bodies = n_bodies * sizeof *slabs->bodies, held = (size_t)slabs->n_held * sizeof *slabs->held;
+    const size_t bodies = slabs->n_bodies * sizeof *slabs->bodies, held = (size_t)slabs->n_held * sizeof *slabs->held;
     const size_t length = strlen(echo) + 1;
     recipe *r = malloc(sizeof *r + bodies + held + length);
     if (r == NULL) return NULL;
-    *r = (recipe){n_bodies, (size_t)slabs->n_held};
+    *r = (recipe){slabs->n_bodies, (size_t)slabs->n_held};
     char *to = (char *)r->bodies;
     memcpy(to, slabs->bodies, bodies);
     if (held > 0) memcpy(to + bodies, slabs->held, held);
@@ -474,9 +495,12 @@ dem_status deck_slabs_make(void *program, const void *bytes, size_t size, dem_in
     bool good = namelist_parse(&list, text, size - (size_t)(text - (const char *)bytes) - 1, &errors);
     if (good) good = schema_resolve(&groups, &list, &errors);
     dem_status status = good ? DEM_OK : DEM_ERROR_MEMORY;
-    const maker m = {&groups, "", r->bodies, held_in(r), (dem_index)r->n_held, &errors};
+    dem_index **rows = calloc(r->n_bodies + 1, sizeof *rows);
+    const maker m = {&groups, "", r->bodies, held_in(r), (dem_index)r->n_held, rows, &errors};
     if (good) body_drop_unused(&groups);
-    if (good) status = errors.n == 0 ? make(out, &m, part, n_parts) : DEM_ERROR_MODEL;
+    if (rows == NULL) status = DEM_ERROR_MEMORY;
+    if (status == DEM_OK) status = errors.n == 0 ? make(out, &m, part, n_parts) : DEM_ERROR_MODEL;
+    free_rows(rows, r->n_bodies);
     schema_free(&groups);
     namelist_free(&list);
     namelist_errors_free(&errors);

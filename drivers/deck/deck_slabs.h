@@ -20,8 +20,10 @@ typedef struct slab_body {
 typedef struct deck_slabs {
     dem_index n;       /* slabs in which bodies are looked at, if the deck suits; 0: they are built as a whole */
     bool are_made;     /* their lattice is made in slabs, and the deck has none */
-    slab_body *bodies; /* [number of &body groups] owned */
-    dem_index *held;   /* [n_held] owned: nodes with prescribed motion, which may not touch */
+    slab_body *bodies; /* [n_bodies] owned, one for each &body group */
+    dem_index **rows;  /* [n_bodies] owned, as body_keys has them */
+    size_t n_bodies;
+    dem_index *held; /* [n_held] owned: nodes with prescribed motion, which may not touch */
     dem_index n_held;
 } deck_slabs;
 
@@ -54,9 +56,8 @@ typedef dem_status deck_slabs_visitor(void *visitor, const dem_slab *slab);
 dem_status deck_slabs_each(const deck_slabs *slabs, const body_scene *scene, deck_slabs_visitor *visit, void *visitor);
 
 /* What rank 0 sends to the others: bytes, malloc'ed; NULL when memory runs out.
- * \param n_bodies  &body groups
- * \param echo      the resolved deck */
-void *deck_slabs_recipe(size_t *size, const deck_slabs *slabs, size_t n_bodies, const char *echo);
+ * \param echo  the resolved deck */
+void *deck_slabs_recipe(size_t *size, const deck_slabs *slabs, const char *echo);
 
 /* Makes a slab by the bytes of a recipe, as dem_private_slab_maker (base/slab_recipe.h). */
 dem_status deck_slabs_make(void *program, const void *bytes, size_t size, dem_index part, dem_index n_parts,

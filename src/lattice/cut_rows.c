@@ -99,8 +99,18 @@ static dem_index count_triangles(const range *g, dem_index first, dem_index end)
 
 /* What is left in the rows before each, from the first one on, and before the end. NULL: all is. */
 typedef struct row_counts {
-    dem_index *nodes, *triangles; /* [rows + 1] */
+    dem_index *nodes, *triangles; /* [rows + 1], in one array */
 } row_counts;
+
+static dem_index count_rows(const cut_rows *c)
+{
+    return c->whole.last - c->whole.first + 1;
+}
+
+static row_counts counts_in(dem_index *array, const cut_rows *c)
+{
+    return array != NULL ? (row_counts){array, array + count_rows(c) + 1} : (row_counts){NULL, NULL};
+}
 
 static dem_index nodes_before(const cut_rows *c, const row_counts *n, dem_index row)
 {
@@ -132,9 +142,8 @@ static dem_status count_all(row_counts *n, const cut_rows *c)
     const dem_index some = 1 + most_counted / (w->reach + 1);
     *n = (row_counts){0};
     if (c->mark == NULL) return DEM_OK;
-    n->nodes = lattice_zeros(w->last - w->first + 2, sizeof *n->nodes);
-    n->triangles = lattice_zeros(w->last - w->first + 2, sizeof *n->triangles);
-    if (n->nodes == NULL || n->triangles == NULL) return lacks_memory(w);
+    *n = counts_in(lattice_zeros(2 * (count_rows(c) + 1), sizeof *n->nodes), c);
+    if (n->nodes == NULL) return lacks_memory(w);
     for (dem_index row = w->first; row <= w->last; row += some)
         TRY(count_some(n, c, row, row + some <= w->last ? row + some : w->last + 1));
     return DEM_OK;
@@ -184,7 +193,7 @@ static grid own_rows_by_nodes(const cut_rows *c, const row_counts *n, dem_index 
 
 static dem_status find_own_rows(grid *own, const cut_rows *c, const row_counts *n, dem_index part, dem_index n_parts)
 {
-    const dem_index filled = n->nodes != NULL ? count_filled(c, n) : c->whole.last - c->whole.first + 1;
+    const dem_index filled = n->nodes != NULL ? count_filled(c, n) : count_rows(c);
     CHECK(filled > 0, DEM_ERROR_MODEL, "none of %lld nodes is left", (long long)grid_count_nodes(&c->whole));
     CHECK(n_parts <= filled, DEM_ERROR_MODEL, "%lld rows of nodes cannot be %lld slabs", (long long)filled,
           (long long)n_parts);
@@ -331,7 +340,6 @@ dem_status cut_rows_slab(dem_slab *out, const cut_rows *c, dem_index part, dem_i
     if (status == DEM_OK) status = find_own_rows(&own, c, &n, part, n_parts);
     if (status == DEM_OK) status = make(out, c, &n, &own);
     free(n.nodes);
-    free(n.triangles);
     return status;
 }
 
@@ -358,12 +366,12 @@ static dem_status make_between(dem_slab *out, const cut_rows *c, const row_count
     return DEM_OK;
 }
 
-dem_status cut_rows_between(dem_slab *out, const cut_rows *c, dem_index begin, dem_index end)
+dem_status cut_rows_between(dem_slab *out, const cut_rows *c, dem_index **counts, dem_index begin, dem_index end)
 {
-    row_counts n;
-    dem_status status = count_all(&n, c);
+    row_counts n = counts_in(*counts, c);
+    dem_status status = *counts != NULL ? DEM_OK : count_all(&n, c);
     if (status == DEM_OK) status = make_between(out, c, &n, begin, end);
-    free(n.nodes);
-    free(n.triangles);
+    *counts = status == DEM_OK ? n.nodes : NULL;
+    if (status != DEM_OK) free(n.nodes);
     return status;
 }

@@ -26,7 +26,9 @@ dem_status cut_rows_slab(dem_slab *out, const cut_rows *c, dem_index part, dem_i
 
 /** Makes the slab of the rows whose first nodes have, of what is left, the numbers from `begin` on, before `end`. Where
  *  there are none it has but the numbers of nodes and triangles of the whole.
+ *  \param counts  NULL in it, or what a call for the same rows has left there, which does not count them again; to be
+ *                 freed; NULL after a failure
  *  \return DEM_ERROR_MODEL where nothing is left; DEM_ERROR_MEMORY */
-dem_status cut_rows_between(dem_slab *out, const cut_rows *c, dem_index begin, dem_index end);
+dem_status cut_rows_between(dem_slab *out, const cut_rows *c, dem_index **counts, dem_index begin, dem_index end);
 
 #endif

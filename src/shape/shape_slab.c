@@ -58,6 +58,7 @@ static dem_status mark(void *context, dem_lattice *rows, bool *keep)
 /* Which rows: a part, or those of nodes `begin` to `end` where n_parts is 0. */
 typedef struct rows_asked {
     dem_index part, n_parts, begin, end;
+    dem_index **counts; /* of these */
 } rows_asked;
 
 static dem_status make(dem_slab *out, cutter *c, const dem_shape *ours, const rows_asked *asked)
@@ -66,11 +67,13 @@ static dem_status make(dem_slab *out, cutter *c, const dem_shape *ours, const ro
     TRY(shape_input_check_size(ours, shape_find_grid(&c->grid, c->shape)));
     TRY(list_idle(c, ours->n_voids));
     const cut_rows rows = {c->grid.rows, mark, c};
-    if (asked->n_parts > 0)
+    if (asked->n_parts > 0) {
         TRY(cut_rows_slab(out, &rows, asked->part, asked->n_parts));
-    else
-        TRY(cut_rows_between(out, &rows, asked->begin, asked->end));
-    return check_voids(c, ours);
+        return check_voids(c, ours);
+    }
+    const bool all_are_seen = *asked->counts == NULL;
+    TRY(cut_rows_between(out, &rows, asked->counts, asked->begin, asked->end));
+    return all_are_seen ? check_voids(c, ours) : DEM_OK;
 }
 
 static dem_status make_asked(dem_slab *out, const dem_shape *theirs, const rows_asked *asked)
@@ -101,8 +104,9 @@ dem_status dem_slab_shape(dem_slab *out, const dem_shape *theirs, dem_index part
     return make_asked(out, theirs, &(rows_asked){.part = part, .n_parts = n_parts});
 }
 
-dem_status dem_private_slab_between(dem_slab *out, const dem_shape *theirs, dem_index begin, dem_index end)
+dem_status dem_private_slab_between(dem_slab *out, const dem_shape *theirs, dem_index **counts, dem_index begin,
+                                    dem_index end)
 {
     TRY(slab_check_out(out, 0, 1));
-    return make_asked(out, theirs, &(rows_asked){.begin = begin, .end = end});
+    return make_asked(out, theirs, &(rows_asked){.begin = begin, .end = end, .counts = counts});
 }

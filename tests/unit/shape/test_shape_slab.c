@@ -15,7 +15,9 @@ static const dem_outline disc = {
 /* Below the second one, which leans, there are nodes in each row that have no triangle above. */
 static const dem_outline holes[] = {
     {.struct_size = sizeof disc, .kind = DEM_OUTLINE_DISC, .centre = {50.0, -60.0}, .radius = 40.0},
-    {.struct_size = sizeof disc, .centre = {1.0, 10.0}, .size = {380.0, 8.0}, .angle = 0.5}};
+    {.struct_size = sizeof disc, .centre = {1.0, 10.0}, .size = {380.0, 8.0}, .angle = 0.5},
+    /* Beside the body, but it takes some of it, in a few rows. */
+    {.struct_size = sizeof disc, .kind = DEM_OUTLINE_DISC, .centre = {-205.0, 30.0}, .radius = 30.0}};
 
 static dem_shape make_shape(void)
 {
@@ -48,10 +50,11 @@ TEST(slabs_of_a_large_shape_follow_each_other_as_in_the_whole)
 /* A row belongs to the range that has its first node. */
 static void check_ranges(const dem_lattice *whole, const dem_shape *shape, dem_index step)
 {
+    CLEANUP(free_memory) dem_index *counts = NULL;
     dem_index next = 0;
     for (dem_index begin = 0; begin < whole->n_nodes; begin += step) {
         CLEANUP(dem_slab_free) dem_slab s = dem_slab_empty();
-        assert_int_equal(dem_private_slab_between(&s, shape, begin, begin + step), DEM_OK);
+        assert_int_equal(dem_private_slab_between(&s, shape, &counts, begin, begin + step), DEM_OK);
         assert_int_equal(s.n_nodes, whole->n_nodes);
         assert_int_equal(s.n_triangles, whole->n_triangles);
         if (s.n_own == 0) assert_int_equal(s.lattice.n_nodes, 0);
@@ -68,11 +71,13 @@ TEST(slabs_between_nodes_follow_each_other_whatever_the_ranges)
 {
     dem_shape shape = make_shape();
     shape.spacing = 16.0;
+    shape.n_voids = 3;
     CLEANUP(dem_lattice_free) dem_lattice whole = dem_lattice_empty();
     CLEANUP(dem_slab_free) dem_slab none = dem_slab_empty();
+    CLEANUP(free_memory) dem_index *counts = NULL;
     assert_int_equal(dem_shape_lattice(&whole, &shape, NULL), DEM_OK);
     for (dem_index step = 5; step <= whole.n_nodes + 9; step += step / 2) check_ranges(&whole, &shape, step);
-    assert_int_equal(dem_private_slab_between(&none, &shape, 0, 0), DEM_OK);
+    assert_int_equal(dem_private_slab_between(&none, &shape, &counts, 0, 0), DEM_OK);
     assert_int_equal(none.n_own, 0);
     assert_int_equal(none.n_nodes, whole.n_nodes);
 }

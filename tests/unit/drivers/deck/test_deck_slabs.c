@@ -220,7 +220,7 @@ static dem_index check_springs(const dem_lattice *whole, const dem_slab *slab, d
 static void check_slabs(const deck *whole, const deck *slabs)
 {
     size_t size;
-    void *recipe = deck_slabs_recipe(&size, &slabs->slabs, slabs->n_bodies, slabs->echo);
+    void *recipe = deck_slabs_recipe(&size, &slabs->slabs, slabs->echo);
     dem_index n_nodes = 0, n_springs = 0;
     assert_non_null(recipe);
     for (dem_index part = 0; part < slabs->slabs.n; part++) {
