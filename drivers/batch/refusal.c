@@ -16,11 +16,13 @@ typedef struct advice {
     const char *remedy;
 } advice;
 
-/* Whether the model would be simulated if its bodies did not touch. */
+/* Whether the model would be simulated if its bodies did not touch, and so had no friction. */
 static bool goes_without_contact(const dem_model *model, dem_options options)
 {
     dem_simulation *simulation = NULL;
     options.bodies = DEM_BODIES_NONE;
+    options.contact_friction = 0.0;
+    options.n_body_frictions = 0;
     const bool goes = dem_simulation_create(&simulation, model, &options) == DEM_OK;
     dem_simulation_destroy(simulation);
     return goes;

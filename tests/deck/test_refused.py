@@ -211,6 +211,11 @@ DECKS = [
                                "0.04, material = 'rubber' /\n&contact bodies = 'others' /\n&output"),
      ["24:10 node 26 of body 1 at (0.02, 0.0429996) m is 0.00299956 m inside body 2, behind its edge between nodes 35 and 36: surfaces "
       "must not cross at the start; bodies = 'none' in &contact lets bodies overlap"]),
+    ("bodies with friction that cross", edit(BASE, "thickness = 1 -> friction = 0.3", "&output -> &body shape = "
+                                             "'rectangle', size = 0.04, 0.05, spacing = 0.01, position = 0.003, 0.04, "
+                                             "material = 'rubber' /\n&contact bodies = 'others' /\n&output"),
+     ["24:10 node 26 of body 1 at (0.02, 0.0429996) m is 0.00299956 m inside body 2, behind its edge between nodes 35 and 36: surfaces "
+      "must not cross at the start; bodies = 'none' in &contact lets bodies overlap"]),
     ("guide of a body that is not rigid", edit(BASE, "velocity = 0, -1 -> guide = 'x'"),
      ["17:5 'guide' in &body is not used without 'rigid'"]),
     ("guide unknown", edit(BASE, "velocity = 0, -1 -> rigid = .true., guide = 'z'") + "&solver max_step = 1e-4 /\n",
