@@ -508,7 +508,7 @@ class InSlabs(Runs):
             code, _, errors = self.run_on(n, "ranks", "--set", "body(1).position=0,0.02", *more, deck="several.nml")
             self.assertEqual(code, 3)
             said.append([line for line in errors.splitlines() if line.startswith("several.nml")])
-        self.assertRegex(said[0][0], r"^several.nml:10:1: error: .* of body 3 .* must not cross at the start")
+        self.assertRegex(said[0][0], r"^several.nml:1:1: error: .* of body 3 .* must not cross at the start; bodies = 'none' in")
         self.assertEqual(*said)
 
     def test_a_run_ends_at_rest_as_that_of_one_process(self):
