@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Finds when a candidate's contacts change within an accepted step (docs/algorithms.md, Event location). The motion is
- * a quintic for each node, but a gap to polylines is only chunkwise smooth, so that roots are isolated by samples, not
+ * a quintic for each node, but a gap to polylines is only piecewise smooth, so that roots are isolated by samples, not
  * by the polynomial's coefficients: eight samples of the rest of the step, every dip between two of them followed to
  * its bottom, and a bracketed root closed in on by secants. Bounds on how far a candidate can move avoid all of it for
  * most candidates. The root functions are in candidate.c; who is asked, and what happens then, is in

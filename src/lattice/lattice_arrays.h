@@ -34,7 +34,7 @@ dem_index lattice_count(const dem_lattice *lattice, lattice_items of);
 uint64_t lattice_arrays_hash(const dem_lattice *lattice);
 
 /** The same where arrays are not all here at once: first the counts, then each array in the order of lattice_arrays,
- *  which may come piece by piece, of 8 k items each but for the last.
+ *  which may come chunk by chunk, of 8 k items each but for the last.
  *  \param items  n of array k; NULL: there is no such array */
 uint64_t lattice_arrays_hash_counts(const dem_lattice *lattice);
 uint64_t lattice_arrays_hash_next(uint64_t hash, int k, const void *items, dem_index n);
