@@ -15,6 +15,9 @@
 /* The dataset of an array, and that of its offsets. */
 #define IN(set, name) GRID set "/" name, STEPS "/" set "Offsets/" name
 
+/* Fields for which the stresses of all nodes are needed. */
+enum { ANY_STRESS = DEM_FIELD_STRESS | DEM_FIELD_VON_MISES | DEM_FIELD_PRINCIPAL };
+
 /* ---- arrays: what fills f->scratch, [6 n_nodes] at least ---- */
 
 /* Where rows of two, or three, components of each node are before they are spread in place: as far behind as what they
@@ -82,10 +85,10 @@ static dem_status fill_velocity(const frames *f, const dem_simulation *simulatio
     return DEM_OK;
 }
 
-/* The simulation computes stresses once for all arrays that are made of them. */
+/* The stresses are there (frame_arrays_hand_out), as they are computed once for all arrays made of them. */
 static dem_status fill_stress(const frames *f, const dem_simulation *simulation)
 {
-    TRY(dem_simulation_stress(simulation, stresses_of(f)));
+    (void)simulation;
     frame_arrays_spread_stress(f->scratch, f->n_nodes, stresses_of(f));
     return DEM_OK;
 }
@@ -93,7 +96,7 @@ static dem_status fill_stress(const frames *f, const dem_simulation *simulation)
 static dem_status fill_von_mises(const frames *f, const dem_simulation *simulation)
 {
     const double *stress = stresses_of(f);
-    TRY(dem_simulation_stress(simulation, stresses_of(f)));
+    (void)simulation;
     for (dem_index i = 0; i < f->n_nodes; i++) f->scratch[i] = dem_stress_von_mises(stress + 3 * i);
     return DEM_OK;
 }
@@ -103,7 +106,7 @@ static dem_status fill_principal(const frames *f, const dem_simulation *simulati
 {
     double direction[2];
     const double *stress = stresses_of(f);
-    TRY(dem_simulation_stress(simulation, stresses_of(f)));
+    (void)simulation;
     for (dem_index i = 0; i < f->n_nodes; i++) dem_stress_principal(stress + 3 * i, f->scratch + 2 * i, direction);
     return DEM_OK;
 }
@@ -188,9 +191,10 @@ static const struct array {
     /* Nodes: what the options choose, in single precision unless they say otherwise. */
     {IN("PointData", "displacement"), DEM_FIELD_DISPLACEMENT, HDF5_F32, FRAME_OF_NODES, 3, fill_displacement},
     {IN("PointData", "velocity"), DEM_FIELD_VELOCITY, HDF5_F32, FRAME_OF_NODES, 3, fill_velocity},
-    {IN("PointData", "stress"), DEM_FIELD_STRESS, HDF5_F32, FRAME_OF_NODES, 6, fill_stress},
+    /* Those made of stresses one after the other; the tensors, which take the place of these, last. */
     {IN("PointData", "von_mises"), DEM_FIELD_VON_MISES, HDF5_F32, FRAME_OF_NODES, 1, fill_von_mises},
     {IN("PointData", "principal_stress"), DEM_FIELD_PRINCIPAL, HDF5_F32, FRAME_OF_NODES, 2, fill_principal},
+    {IN("PointData", "stress"), DEM_FIELD_STRESS, HDF5_F32, FRAME_OF_NODES, 6, fill_stress},
     {IN("PointData", "contact_force"), DEM_FIELD_CONTACT, HDF5_F32, FRAME_OF_NODES, 3, fill_contact_force},
     {IN("PointData", "contact_pressure"), DEM_FIELD_CONTACT, HDF5_F32, FRAME_OF_NODES, 1, fill_contact_pressure},
     {IN("PointData", "fragment"), DEM_FIELD_FRAGMENT, HDF5_I64, FRAME_OF_NODES, 1, fill_fragment},
@@ -274,8 +278,12 @@ dem_status frame_arrays_make_scratch(frames *f)
 dem_status frame_arrays_hand_out(const frames *f, const dem_simulation *simulation, frame_arrays_taker *take,
                                  void *context)
 {
+    bool has_stresses = false;
     for (int k = 0; k < FRAME_ARRAYS; k++) {
+        const bool is_of_stresses = (arrays[k].field & ANY_STRESS) != 0;
         if (!frame_arrays_is_wanted(f, k)) continue;
+        if (is_of_stresses && !has_stresses) TRY(dem_simulation_stress(simulation, stresses_of(f)));
+        has_stresses = is_of_stresses;
         TRY(arrays[k].fill(f, simulation));
         TRY(take(context, k, f->scratch));
     }
