@@ -328,29 +328,25 @@ static void print_marks(const report *r, const dem_model *model, dem_index node)
 }
 
 /* Place at rest. */
-static void print_node_peak(const report *r, const dem_model *model, dem_index node)
+static void print_node_peak(const report *r, const dem_model *model, dem_index node, const dem_node_peak *peak)
 {
-    dem_node_peak peak;
     double x[2], value[2], direction[2];
-    if (dem_private_peaks_pick_nodes(r->peaks, &node, 1, &peak) != DEM_OK) return;
     whole_nodes_place(x, model, node);
-    dem_stress_principal(peak.stress, value, direction);
+    dem_stress_principal(peak->stress, value, direction);
     (void)fprintf(r->log->out,
                   "stressed   node %lld at (%.6g, %.6g) m: von Mises %.4g Pa at %.4e s, principal %+.4g Pa at %.0f "
                   "degrees, %+.4g Pa",
-                  (long long)node, x[0], x[1], peak.von_mises, peak.t, value[0],
+                  (long long)node, x[0], x[1], peak->von_mises, peak->t, value[0],
                   atan2(direction[1], direction[0]) / angle_degree, value[1]);
     print_marks(r, model, node);
     (void)fprintf(r->log->out, "\n");
 }
 
-static void print_spring_peak(const report *r, const dem_model *model, dem_index spring)
+static void print_spring_peak(const report *r, const dem_model *model, dem_index spring, const dem_spring_peak *peak)
 {
-    dem_spring_peak peak;
-    if (dem_private_peaks_pick_springs(r->peaks, &spring, 1, &peak) != DEM_OK) return;
     const whole_spring at = whole_nodes_spring(model, spring);
     (void)fprintf(r->log->out, "strained   spring %lld at (%.6g, %.6g) m: strain %+.4g, force %+.4g N at %.4e s\n",
-                  (long long)spring, at.middle[0], at.middle[1], peak.strain, at.stiffness * peak.strain, peak.t);
+                  (long long)spring, at.middle[0], at.middle[1], peak->strain, at.stiffness * peak->strain, peak->t);
 }
 
 /* Whether bodies have deformed at all. In free flight coordinates are rounded: 1e4 steps of a ring, 100 spacings from
@@ -360,18 +356,32 @@ static bool is_strained(const report *r)
     return fmax(r->so_far.strain_max.max, -r->so_far.strain_min.min) > 1e-10;
 }
 
+static void print_node_peaks(const report *r, const dem_model *model, dem_index most, dem_index *list)
+{
+    const dem_index n = dem_peaks_most_stressed_nodes(r->peaks, most, list);
+    dem_node_peak *peaks = calloc((size_t)n + 1, sizeof *peaks);
+    const bool good = peaks != NULL && dem_private_peaks_pick_nodes(r->peaks, list, n, peaks) == DEM_OK;
+    for (dem_index k = 0; k < n && good; k++) print_node_peak(r, model, list[k], &peaks[k]);
+    free(peaks);
+}
+
+static void print_spring_peaks(const report *r, const dem_model *model, dem_index most, dem_index *list)
+{
+    const dem_index n = dem_peaks_most_strained_springs(r->peaks, most, list);
+    dem_spring_peak *peaks = calloc((size_t)n + 1, sizeof *peaks);
+    const bool good = peaks != NULL && dem_private_peaks_pick_springs(r->peaks, list, n, peaks) == DEM_OK;
+    for (dem_index k = 0; k < n && good; k++) print_spring_peak(r, model, list[k], &peaks[k]);
+    free(peaks);
+}
+
 static void print_peaks(const report *r, const dem_model *model)
 {
-    dem_index *list = calloc((size_t)r->most_stressed + 1, sizeof *list);
-    if (r->peaks == NULL || !is_strained(r) || list == NULL) {
-        free(list);
-        return;
-    }
     const dem_index most = r->log->verbose || r->most_stressed == 0 ? r->most_stressed : 1;
-    const dem_index n = dem_peaks_most_stressed_nodes(r->peaks, most, list);
-    for (dem_index k = 0; k < n; k++) print_node_peak(r, model, list[k]);
-    const dem_index m = r->log->verbose ? dem_peaks_most_strained_springs(r->peaks, most, list) : 0;
-    for (dem_index k = 0; k < m; k++) print_spring_peak(r, model, list[k]);
+    dem_index *list = calloc((size_t)most + 1, sizeof *list);
+    if (r->peaks != NULL && is_strained(r) && list != NULL) {
+        print_node_peaks(r, model, most, list);
+        if (r->log->verbose) print_spring_peaks(r, model, most, list);
+    }
     free(list);
 }
 
