@@ -10,8 +10,8 @@
 #include <dem/checkpoint.h>
 
 #include "ask.h"
-#include "base/peak_source.h"
 #include "base/file.h"
+#include "base/peak_source.h"
 #include "json.h"
 #include "output.h"
 #include "preview.h"

@@ -76,20 +76,20 @@ static dem_status put(dem_slab *slab, body_inclusions *found, const maker *m, si
 }
 
 /* A slab of one body, which goes from copy to copy. */
-typedef struct piece {
+typedef struct body_slab {
     size_t k; /* of which body */
     body_range range;
     dem_slab slab;
     size_t next_copy;
     double offset[2]; /* m, of the body's own coordinates */
-} piece;
+} body_slab;
 
-static dem_status open_piece(piece *p, const maker *m, size_t k, body_range range)
+static dem_status open_body_slab(body_slab *p, const maker *m, size_t k, body_range range)
 {
     const schema_instance *body = schema_get(m->groups, "body", k);
     body_geometry geometry;
     body_inclusions found = {0};
-    *p = (piece){.k = k, .range = range};
+    *p = (body_slab){.k = k, .range = range};
     for (int c = 0; c < 2; c++) p->offset[c] = schema_reals(body, "position")[c];
     dem_status status = triangulate(&p->slab, &geometry, m, k, range);
     found.n = geometry.n_inclusions;
@@ -100,7 +100,7 @@ static dem_status open_piece(piece *p, const maker *m, size_t k, body_range rang
     return status;
 }
 
-static dem_status go_to_copy(piece *p, const schema_instance *body, size_t copy)
+static dem_status go_to_copy(body_slab *p, const schema_instance *body, size_t copy)
 {
     for (; copies_count(body) > 1 && p->next_copy <= copy; p->next_copy++)
         if (!body_put_copy(&p->slab.lattice, p->offset, body, p->next_copy)) return DEM_ERROR_MEMORY;
@@ -169,14 +169,14 @@ static dem_status add_body(dem_slab *out, tally *before, const maker *m, size_t 
 {
     const schema_instance *body = schema_get(m->groups, "body", k);
     const size_t n_copies = copies_count(body);
-    piece p = {.slab = dem_slab_empty()};
+    body_slab p = {.slab = dem_slab_empty()};
     dem_status status = DEM_OK;
     for (size_t copy = 0; copy < n_copies && status == DEM_OK; copy++) {
         const body_range range = share_of(all, before->nodes, m->bodies[k].n_nodes);
         const bool has_any = range.begin < range.end;
         if (has_any && !is_same(range, p.range)) {
             dem_slab_free(&p.slab);
-            status = open_piece(&p, m, k, range);
+            status = open_body_slab(&p, m, k, range);
         }
         if (has_any && status == DEM_OK) status = go_to_copy(&p, body, copy);
         if (has_any && status == DEM_OK && p.slab.n_own > 0) status = add(out, &p.slab, before, n_copies > 1);
@@ -276,7 +276,7 @@ static dem_status add_facts(void *facts, const dem_slab *slab)
 }
 
 /* At one body. */
-typedef struct looker {
+typedef struct body_look {
     const maker *maker;
     size_t k;
     body_facts *facts;
@@ -284,10 +284,10 @@ typedef struct looker {
     body_inclusions inclusions;
     double moment[2];       /* kg m, sum of masses times places */
     lattice_facts *at_once; /* NULL: they are found by a second look */
-} looker;
+} body_look;
 
 /* Sums of the whole, in the order of its nodes: of them dem_lattice_spin() makes the centre. */
-static void add_mass(looker *l, const dem_slab *slab)
+static void add_mass(body_look *l, const dem_slab *slab)
 {
     const dem_lattice *lattice = &slab->lattice;
     for (dem_index i = slab->first_own; i < slab->first_own + slab->n_own; i++) {
@@ -304,7 +304,7 @@ static dem_status note_angle(body_facts *facts, const dem_slab *slab)
     return status;
 }
 
-static dem_status look_at_slab(looker *l, dem_slab *slab)
+static dem_status look_at_slab(body_look *l, dem_slab *slab)
 {
     if (!slab_survey_add_strip(&l->survey, slab)) return DEM_ERROR_MEMORY;
     dem_status status = note_angle(l->facts, slab);
@@ -315,7 +315,7 @@ static dem_status look_at_slab(looker *l, dem_slab *slab)
     return status == DEM_OK && l->at_once != NULL ? add_facts(l->at_once, slab) : status;
 }
 
-static dem_status look_at_slabs(looker *l, dem_index n)
+static dem_status look_at_slabs(body_look *l, dem_index n)
 {
     const maker *m = l->maker;
     dem_status status = DEM_OK;
@@ -337,7 +337,7 @@ static bool all_are_met(const body_inclusions *inclusions)
     return true;
 }
 
-static dem_status conclude(looker *l, dem_lattice *strip, slab_body *body)
+static dem_status conclude(body_look *l, dem_lattice *strip, slab_body *body)
 {
     body_facts *f = l->facts;
     if (!slab_survey_is_one(&l->survey) || !all_are_met(&l->inclusions)) return DEM_ERROR_MODEL;
@@ -353,7 +353,7 @@ static dem_status conclude(looker *l, dem_lattice *strip, slab_body *body)
 /* In n slabs. */
 static dem_status look_at_body(deck_slabs_found *out, slab_body *body, const maker *m, size_t k, dem_index n)
 {
-    looker l = {.maker = m, .k = k, .facts = &out->bodies[k], .at_once = out->at_once ? &out->lattice : NULL};
+    body_look l = {.maker = m, .k = k, .facts = &out->bodies[k], .at_once = out->at_once ? &out->lattice : NULL};
     *l.facts = (body_facts){.least_angle = (double)INFINITY};
     dem_status status = look_at_slabs(&l, n);
     if (status == DEM_OK) status = conclude(&l, &out->strips[k], body);

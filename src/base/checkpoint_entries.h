@@ -50,7 +50,7 @@ dem_status checkpoint_entries_refer(dem_checkpoint *checkpoint, const char *name
 /** Copies all that is elsewhere, which is about to end.  \return DEM_ERROR_MEMORY */
 dem_status checkpoint_entries_bring(dem_checkpoint *checkpoint);
 
-/** Puts all entries of rank 0's checkpoint into that of every other rank. Collective.
+/** Puts all entries of rank 0's checkpoint, of which none is elsewhere, into that of every other rank. Collective.
  *  \return DEM_ERROR_MEMORY, on all ranks */
 dem_status checkpoint_entries_share(const ranks *r, dem_checkpoint *checkpoint);
 

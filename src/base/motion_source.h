@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Positions and velocities for those who look at one of them at a time, as writers of files do: of a run that ranks
- * make dem_simulation_state() gathers both, and keeps them. Defined in simulation/query.c. */
+ * make dem_simulation_state() gathers both, and keeps them. Defined in simulation/motion_source.c. */
 #ifndef DEM_BASE_MOTION_SOURCE_H
 #define DEM_BASE_MOTION_SOURCE_H
 

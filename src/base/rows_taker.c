@@ -3,6 +3,17 @@
 
 #include <string.h>
 
+#include "base/status.h"
+
+dem_status rows_hand_over(const void *rows, size_t size, dem_index n, rows_taker *take, void *context)
+{
+    for (dem_index first = 0; first < n; first += ROWS_CHUNK) {
+        const dem_index left = n - first;
+        TRY(take(context, first, left < ROWS_CHUNK ? left : ROWS_CHUNK, (const char *)rows + (size_t)first * size));
+    }
+    return DEM_OK;
+}
+
 dem_status rows_taker_copy(void *copy, dem_index first, dem_index n, const void *rows)
 {
     const rows_copy *c = copy;

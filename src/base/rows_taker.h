@@ -12,6 +12,13 @@
  *  \return a failure ends the handing over, and is its result */
 typedef dem_status rows_taker(void *context, dem_index first, dem_index n, const void *rows);
 
+/** Rows that are handed over at once, but for the last. Chunks of files have so many, too. */
+enum { ROWS_CHUNK = 1 << 16 };
+
+/** Hands over n rows that are here.
+ *  \param size  bytes of a row  \return that of `take` */
+dem_status rows_hand_over(const void *rows, size_t size, dem_index n, rows_taker *take, void *context);
+
 /** What rows_taker_copy() takes: all. */
 typedef struct rows_copy {
     size_t size; /* bytes of a row */

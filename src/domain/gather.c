@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The items of the whole are gathered piece by piece. Of each piece a rank sends first how many it owns, and then their
- * rows behind their numbers. Back to the ranks each piece goes as a whole. */
+/* The items of the whole are gathered chunk by chunk. Of each chunk a rank sends first how many it owns, and then their
+ * rows behind their numbers. Back to the ranks each chunk goes as a whole. */
 #include "domain/gather.h"
 
 #include <stdint.h>
@@ -15,8 +15,8 @@ typedef struct collection {
     const gather_items *items;
     size_t size;                    /* bytes of a row */
     const unsigned char *from;      /* [n][size] */
-    dem_index next;                 /* the first item here that is in no piece so far */
-    dem_index *n;                   /* [ranks] items of the piece, of which rank 0 knows all, another one its own */
+    dem_index next;                 /* the first item here that is in no chunk so far */
+    dem_index *n;                   /* [ranks] items of the chunk, of which rank 0 knows all, another one its own */
     unsigned char **bytes, *buffer; /* [ranks] what each sends: numbers of items, then their rows; and where */
     ranks_message *sent, *received; /* [ranks] */
 } collection;
@@ -50,7 +50,7 @@ static bool owns(const gather_items *items, dem_index i)
     return items->is_own[n > 0 ? domain_lowest(items->corners + n * i, n) : i] != 0;
 }
 
-/* \param end  of the piece, by numbers of the whole  \return behind its last item here */
+/* \param end  of the chunk, by numbers of the whole  \return behind its last item here */
 static dem_index count(const collection *c, dem_index end)
 {
     const gather_items *items = c->items;
@@ -95,9 +95,9 @@ static void unpack(const collection *c, dem_index first, unsigned char *to)
     }
 }
 
-static void collect_piece(collection *c, dem_index first, unsigned char *to)
+static void collect_chunk(collection *c, dem_index first, unsigned char *to)
 {
-    const dem_index behind = count(c, first + GATHER_CHUNK);
+    const dem_index behind = count(c, first + ROWS_CHUNK);
     send_to_root(c, true);
     lay_out(c);
     pack(c, behind);
@@ -106,7 +106,7 @@ static void collect_piece(collection *c, dem_index first, unsigned char *to)
     c->next = behind;
 }
 
-/* An item is owned once, so that all ranks together send a piece, and any of them may get one. */
+/* An item is owned once, so that all ranks together send a chunk, and any of them may get one. */
 static dem_status allocate(collection *c)
 {
     const size_t n = (size_t)c->ranks->size;
@@ -115,7 +115,7 @@ static dem_status allocate(collection *c)
     c->bytes = calloc(n, sizeof *c->bytes);
     c->sent = calloc(n, sizeof *c->sent);
     c->received = calloc(n, sizeof *c->received);
-    c->buffer = malloc(size_of(c, most < GATHER_CHUNK ? most : GATHER_CHUNK) + n * sizeof(dem_index));
+    c->buffer = malloc(size_of(c, most < ROWS_CHUNK ? most : ROWS_CHUNK) + n * sizeof(dem_index));
     CHECK(c->n && c->bytes && c->sent && c->received && c->buffer, DEM_ERROR_MEMORY,
           "out of memory for rows of %d ranks", c->ranks->size);
     return DEM_OK;
@@ -134,18 +134,18 @@ dem_status gather_rows(const ranks *r, const gather_items *items, size_t size, c
 {
     collection c = {.ranks = r, .items = items, .size = size, .from = from};
     const dem_status status = reduce_status(r, allocate(&c), 0.0);
-    for (dem_index first = 0; status == DEM_OK && first < items->n_whole; first += GATHER_CHUNK)
-        collect_piece(&c, first, r->rank == 0 ? (unsigned char *)whole + (size_t)first * size : NULL);
+    for (dem_index first = 0; status == DEM_OK && first < items->n_whole; first += ROWS_CHUNK)
+        collect_chunk(&c, first, r->rank == 0 ? (unsigned char *)whole + (size_t)first * size : NULL);
     release(&c);
     return status;
 }
 
-/* A piece on rank 0, beside the messages of which it is made. */
-static dem_status allocate_piece(const collection *c, unsigned char **piece)
+/* A chunk on rank 0, beside the messages of which it is made. */
+static dem_status allocate_chunk(const collection *c, unsigned char **chunk)
 {
-    const dem_index all = c->items->n_whole, most = all < GATHER_CHUNK ? all : GATHER_CHUNK;
-    *piece = c->ranks->rank == 0 ? malloc((size_t)most * c->size + 1) : NULL;
-    CHECK(c->ranks->rank > 0 || *piece != NULL, DEM_ERROR_MEMORY, "out of memory for rows of %d ranks", c->ranks->size);
+    const dem_index all = c->items->n_whole, most = all < ROWS_CHUNK ? all : ROWS_CHUNK;
+    *chunk = c->ranks->rank == 0 ? malloc((size_t)most * c->size + 1) : NULL;
+    CHECK(c->ranks->rank > 0 || *chunk != NULL, DEM_ERROR_MEMORY, "out of memory for rows of %d ranks", c->ranks->size);
     return DEM_OK;
 }
 
@@ -154,43 +154,43 @@ dem_status gather_chunks(const ranks *r, const gather_items *items, size_t size,
 {
     collection c = {.ranks = r, .items = items, .size = size, .from = from};
     const dem_index all = items->n_whole;
-    unsigned char *piece = NULL;
+    unsigned char *chunk = NULL;
     dem_status ready = allocate(&c);
-    if (ready == DEM_OK) ready = allocate_piece(&c, &piece);
+    if (ready == DEM_OK) ready = allocate_chunk(&c, &chunk);
     ready = reduce_status(r, ready, 0.0);
     dem_status taken = ready;
-    for (dem_index first = 0; ready == DEM_OK && first < all; first += GATHER_CHUNK) {
-        const dem_index left = all - first, n = left < GATHER_CHUNK ? left : GATHER_CHUNK;
-        collect_piece(&c, first, piece);
-        if (r->rank == 0 && taken == DEM_OK) taken = take(context, first, n, piece);
+    for (dem_index first = 0; ready == DEM_OK && first < all; first += ROWS_CHUNK) {
+        const dem_index left = all - first, n = left < ROWS_CHUNK ? left : ROWS_CHUNK;
+        collect_chunk(&c, first, chunk);
+        if (r->rank == 0 && taken == DEM_OK) taken = take(context, first, n, chunk);
     }
-    free(piece);
+    free(chunk);
     release(&c);
     return ready == DEM_OK ? reduce_status(r, taken, 0.0) : ready;
 }
 
 /* ---- back ---- */
 
-/* Rank 0 has `piece` already, and the others get it. */
-static void send_piece(const collection *c, size_t bytes, void *piece)
+/* Rank 0 has `chunk` already, and the others get it. */
+static void send_chunk(const collection *c, size_t bytes, void *chunk)
 {
     const ranks *r = c->ranks;
     const int n = r->rank == 0 ? r->size - 1 : 1;
     for (int k = 0; k < n; k++) {
         const int other = r->rank == 0 ? k + 1 : 0;
-        const ranks_message full = {other, bytes, piece}, empty = {other, 0, NULL};
+        const ranks_message full = {other, bytes, chunk}, empty = {other, 0, NULL};
         c->sent[k] = r->rank == 0 ? full : empty;
         c->received[k] = r->rank == 0 ? empty : full;
     }
     r->exchange(r->self, n, c->sent, c->received);
 }
 
-/* \param first, end  of the piece, by numbers of the whole */
-static void take_rows(collection *c, dem_index first, dem_index end, const unsigned char *piece, unsigned char *to)
+/* \param first, end  of the chunk, by numbers of the whole */
+static void take_rows(collection *c, dem_index first, dem_index end, const unsigned char *chunk, unsigned char *to)
 {
     const gather_items *items = c->items;
     for (; c->next < items->n && items->number[c->next] < end; c->next++)
-        memcpy(to + (size_t)c->next * c->size, piece + (size_t)(items->number[c->next] - first) * c->size, c->size);
+        memcpy(to + (size_t)c->next * c->size, chunk + (size_t)(items->number[c->next] - first) * c->size, c->size);
 }
 
 dem_status gather_back(const ranks *r, const gather_items *items, size_t size, const void *whole, void *to)
@@ -198,11 +198,11 @@ dem_status gather_back(const ranks *r, const gather_items *items, size_t size, c
     collection c = {.ranks = r, .items = items, .size = size};
     const dem_status status = reduce_status(r, allocate(&c), 0.0);
     for (dem_index first = 0, end; status == DEM_OK && first < items->n_whole; first = end) {
-        end = first + GATHER_CHUNK < items->n_whole ? first + GATHER_CHUNK : items->n_whole;
+        end = first + ROWS_CHUNK < items->n_whole ? first + ROWS_CHUNK : items->n_whole;
         /* Messages are not const, whoever sends them. */
-        void *piece = r->rank == 0 ? (void *)((uintptr_t)whole + (size_t)first * size) : c.buffer;
-        send_piece(&c, (size_t)(end - first) * size, piece);
-        take_rows(&c, first, end, piece, to);
+        void *chunk = r->rank == 0 ? (void *)((uintptr_t)whole + (size_t)first * size) : c.buffer;
+        send_chunk(&c, (size_t)(end - first) * size, chunk);
+        take_rows(&c, first, end, chunk, to);
     }
     release(&c);
     return status;

@@ -40,11 +40,9 @@ static inline gather_items gather_triangles(const domain *d, const dem_lattice *
  *  \return DEM_ERROR_MEMORY, on all ranks */
 dem_status gather_rows(const ranks *r, const gather_items *items, size_t size, const void *from, void *whole);
 
-/** Hands them to a function of rank 0 instead, some rows after the other, so that nobody needs memory for all.
- *  Collective.
+/** Hands them to a function of rank 0 instead, ROWS_CHUNK at a time, so that nobody needs memory for all. Collective.
  *  \param take  on rank 0; not called elsewhere. Once it fails it is not called again
  *  \return its failure, and DEM_ERROR_MEMORY, on all ranks */
-enum { GATHER_CHUNK = 1 << 16 }; /* rows that are handed over at once, and of messages; the last may be fewer */
 dem_status gather_chunks(const ranks *r, const gather_items *items, size_t size, const void *from, rows_taker *take,
                          void *context);
 

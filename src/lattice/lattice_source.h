@@ -20,11 +20,10 @@ typedef struct lattice_source {
  *  more of a model than its public headers. They are exported for dem_batch; no other program may call them. */
 DEM_API lattice_source dem_private_lattice_source(const dem_model *model);
 
-/** Hands an array over, so many items after the other, so that nobody needs memory for all; nothing of one that the
+/** Hands an array over, ROWS_CHUNK items at a time, so that nobody needs memory for all; nothing of one that the
  *  lattice does not have. On rank 0 where ranks have parts, while the others wait for what it asks of them.
  *  \param member  offset of the array's pointer in a dem_lattice
  *  \return DEM_ERROR_MEMORY, and the failure of `take`, which is not called again then */
-enum { LATTICE_SOURCE_CHUNK = 1 << 16 };
 dem_status dem_private_lattice_visit(const lattice_source *from, size_t member, rows_taker *take, void *context);
 
 /** Whether there is such an array. */

@@ -3,7 +3,6 @@
 #include "lattice/lattice_source.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/status.h"
 #include "lattice/lattice_arrays.h"
@@ -19,7 +18,7 @@ typedef struct view {
     int number; /* in lattice_arrays */
     size_t size;
     dem_index n;
-    const char *items; /* NULL: ranks have them, or nobody */
+    const void *items; /* NULL: ranks have them, or nobody */
     bool is_away;      /* ranks have them */
 } view;
 
@@ -43,11 +42,7 @@ dem_status dem_private_lattice_visit(const lattice_source *from, size_t member, 
 {
     const view v = view_of(from, member);
     if (v.is_away) return from->whole->ask_array(from->whole, v.number, take, context);
-    for (dem_index first = 0; first < v.n && v.items != NULL; first += LATTICE_SOURCE_CHUNK) {
-        const dem_index left = v.n - first, n = left < LATTICE_SOURCE_CHUNK ? left : LATTICE_SOURCE_CHUNK;
-        TRY(take(context, first, n, v.items + (size_t)first * v.size));
-    }
-    return DEM_OK;
+    return v.items != NULL ? rows_hand_over(v.items, v.size, v.n, take, context) : DEM_OK;
 }
 
 dem_status dem_private_lattice_open(source_array *out, const lattice_source *from, size_t member)
@@ -71,10 +66,6 @@ void dem_private_lattice_close(source_array *a)
 dem_status dem_private_lattice_pick(const lattice_source *from, size_t member, const dem_index *list, dem_index n,
                                     void *out)
 {
-    const view v = view_of(from, member);
-    rows_pick listed = {v.size, list, n, out};
-    if (v.is_away) return dem_private_lattice_visit(from, member, rows_taker_pick, &listed);
-    for (dem_index k = 0; k < n; k++)
-        memcpy((char *)out + (size_t)k * v.size, v.items + (size_t)list[k] * v.size, v.size);
-    return DEM_OK;
+    rows_pick listed = {view_of(from, member).size, list, n, out};
+    return dem_private_lattice_visit(from, member, rows_taker_pick, &listed);
 }

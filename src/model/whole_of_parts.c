@@ -93,8 +93,6 @@ static dem_status visit_corners(const dem_model *part, const lattice_array *a, c
     return status;
 }
 
-_Static_assert((int)LATTICE_SOURCE_CHUNK == (int)GATHER_CHUNK, "pieces come as they are gathered");
-
 dem_status whole_of_parts_visit(const dem_model *part, int array, rows_taker *take, void *context)
 {
     const lattice_array *a = &lattice_arrays[array];

@@ -14,7 +14,7 @@
  *  \return DEM_ERROR_MEMORY, on all ranks */
 dem_status whole_of_parts_create(dem_model **out, dem_model *part, model_array_asker *ask);
 
-/** Hands array number `array` of lattice_arrays to a function of rank 0, piece by piece. Collective.
+/** Hands array number `array` of lattice_arrays to a function of rank 0, chunk by chunk. Collective.
  *  \param take  on rank 0; NULL elsewhere
  *  \return as gather_chunks() */
 dem_status whole_of_parts_visit(const dem_model *part, int array, rows_taker *take, void *context);

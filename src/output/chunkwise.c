@@ -17,12 +17,12 @@ static hsize_t least(hsize_t a, hsize_t b)
     return a < b ? a : b;
 }
 
-static dem_status fill_pieces(const writing *w, hsize_t count, chunkwise_filler *fill, const void *context, void *piece)
+static dem_status fill_chunks(const writing *w, hsize_t count, chunkwise_filler *fill, const void *context, void *chunk)
 {
     for (hsize_t first = 0; first < count; first += w->rows.chunk) {
         const hsize_t n = least(count - first, w->rows.chunk);
-        fill(context, first, n, piece);
-        TRY(hdf5_append(w->file, &w->rows, first, n, piece));
+        fill(context, first, n, chunk);
+        TRY(hdf5_append(w->file, &w->rows, first, n, chunk));
     }
     return DEM_OK;
 }
@@ -31,12 +31,12 @@ dem_status chunkwise_fill(const hdf5_file *file, hdf5_rows rows, hsize_t count, 
                           const void *context)
 {
     writing w = {file, rows, 1};
-    w.rows.chunk = LATTICE_SOURCE_CHUNK;
+    w.rows.chunk = ROWS_CHUNK;
     TRY(hdf5_create_for(file, &w.rows, count));
-    void *piece = malloc((size_t)w.rows.chunk * hdf5_row_bytes(&w.rows) + 1);
-    CHECK_MEMORY(piece);
-    const dem_status status = fill_pieces(&w, count, fill, context, piece);
-    free(piece);
+    void *chunk = malloc((size_t)w.rows.chunk * hdf5_row_bytes(&w.rows) + 1);
+    CHECK_MEMORY(chunk);
+    const dem_status status = fill_chunks(&w, count, fill, context, chunk);
+    free(chunk);
     return status;
 }
 
@@ -50,7 +50,7 @@ dem_status chunkwise_copy(const hdf5_file *file, hdf5_rows rows, const lattice_s
                           int per_item)
 {
     writing w = {file, rows, (hsize_t)per_item};
-    w.rows.chunk = w.per_item * LATTICE_SOURCE_CHUNK;
+    w.rows.chunk = w.per_item * ROWS_CHUNK;
     TRY(hdf5_create_for(file, &w.rows, w.per_item * (hsize_t)n));
     return dem_private_lattice_visit(from, member, append, &w);
 }

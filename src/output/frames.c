@@ -22,9 +22,9 @@
 #include "output/frames.h"
 
 #include "base/status.h"
+#include "output/chunkwise.h"
 #include "output/frame_stripes.h"
 #include "output/hdf5_attribute.h"
-#include "output/chunkwise.h"
 #include "output/vtk_grid.h"
 
 #include <stdio.h>
@@ -295,7 +295,7 @@ dem_status frames_create_constant(const frames *f, const hdf5_file *file, const 
     const dem_index count = strcmp(constant->set, "PointData") == 0 ? f->n_nodes : f->n_springs;
     (void)snprintf(name, FRAMES_NAME, GRID "%s/%s", constant->set, constant->name);
     (void)snprintf(offset, sizeof offset, STEPS "/%sOffsets/%s", constant->set, constant->name);
-    *rows = (hdf5_rows){name, constant->kind, width > 1 ? 2 : 1, {width}, LATTICE_SOURCE_CHUNK, f->deflate};
+    *rows = (hdf5_rows){name, constant->kind, width > 1 ? 2 : 1, {width}, ROWS_CHUNK, f->deflate};
     TRY(hdf5_create_for(file, rows, (hsize_t)count));
     return share_offset(file, offset, FRAME_OF_NONE);
 }

@@ -33,7 +33,7 @@ hsize_t frames_bytes(const frames *f);
 dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simulation *simulation);
 
 /** Adds an array that is the same in all frames, to a file made by frames_create(). Its rows are to be appended, one
- *  for each node or spring, LATTICE_SOURCE_CHUNK at a time, doubles.
+ *  for each node or spring, ROWS_CHUNK at a time, doubles.
  *  \param[out] rows  have the name `name` */
 enum { FRAMES_NAME = 96 };
 dem_status frames_create_constant(const frames *f, const hdf5_file *file, const frames_constant *constant,

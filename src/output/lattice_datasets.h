@@ -9,6 +9,7 @@
 #ifndef DEM_OUTPUT_LATTICE_DATASETS_H
 #define DEM_OUTPUT_LATTICE_DATASETS_H
 
+#include "base/rows_taker.h"
 #include "lattice/lattice_arrays.h"
 #include "output/hdf5_untrusted.h"
 
@@ -58,7 +59,7 @@ enum { LATTICE_RIGID_KINDS = 4 };
 extern const unsigned char lattice_rigid_flags[LATTICE_RIGID_KINDS];
 
 /** Rows of a chunk, at most, and of what is read at a time where not all is taken, but for files with larger chunks. */
-enum { LATTICE_PIECE = 65536 };
+enum { LATTICE_PIECE = ROWS_CHUNK };
 
 /** A file that is read, and what is taken of it. */
 typedef struct lattice_datasets {

@@ -4,8 +4,8 @@
 
 #include "base/status.h"
 #include "lattice/lattice.h"
-#include "output/lattice_datasets.h"
 #include "output/chunkwise.h"
+#include "output/lattice_datasets.h"
 
 #include <dem/trajectory.h>
 

@@ -80,7 +80,7 @@ static dem_status write_springs(columns c, const dem_peaks *peaks, const frames 
 
 dem_status peaks_file_write_arrays(const hdf5_file *file, const peaks_report *report, const frames *f)
 {
-    columns c = {.file = file, .scratch = malloc(6 * LATTICE_SOURCE_CHUNK * sizeof *c.scratch)};
+    columns c = {.file = file, .scratch = malloc(6 * ROWS_CHUNK * sizeof *c.scratch)};
     CHECK_MEMORY(c.scratch);
     dem_status status = write_nodes(c, report->peaks, f);
     if (status == DEM_OK) status = write_springs(c, report->peaks, f);

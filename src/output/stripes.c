@@ -52,7 +52,7 @@ typedef struct hashing {
     int array;
 } hashing;
 
-static dem_status add_piece(void *context, dem_index first, dem_index n, const void *items)
+static dem_status add_chunk(void *context, dem_index first, dem_index n, const void *items)
 {
     hashing *h = context;
     (void)first;
@@ -66,7 +66,7 @@ dem_status stripes_run(int64_t *out, const lattice_source *lattice)
     for (h.array = 0; h.array < LATTICE_ARRAYS; h.array++) {
         const size_t member = lattice_arrays[h.array].offset;
         if (dem_private_lattice_has(lattice, member))
-            TRY(dem_private_lattice_visit(lattice, member, add_piece, &h));
+            TRY(dem_private_lattice_visit(lattice, member, add_chunk, &h));
         else
             h.hash = lattice_arrays_hash_next(h.hash, h.array, NULL, 0);
     }

@@ -89,7 +89,7 @@ void leader_observers_look_ahead(led_run *l, const dem_checkpoint *checkpoint)
     const dem_lattice *lattice = &l->whole->model->lattice;
     near_contact_state state = {l->whole->t, lattice->position, lattice->velocity};
     size_t size;
-    if (l->near.model == NULL) return;
+    if (l->near.model == NULL) return; /* or a checkpoint's state would be gathered for nothing */
     if (checkpoint != NULL) {
         state.x = dem_checkpoint_find(checkpoint, "state", &size);
         state.v = state.x + state_velocities(&l->whole->layout);

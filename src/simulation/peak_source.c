@@ -6,31 +6,20 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/status.h"
-#include "domain/gather.h"
 #include "simulation/leader_peaks.h"
 
 /* ---- chunk by chunk ---- */
 
-static dem_status visit_here(const void *rows, size_t size, dem_index all, rows_taker *take, void *context)
-{
-    for (dem_index first = 0; first < all; first += GATHER_CHUNK) {
-        const dem_index left = all - first, n = left < GATHER_CHUNK ? left : GATHER_CHUNK;
-        TRY(take(context, first, n, (const char *)rows + (size_t)first * size));
-    }
-    return DEM_OK;
-}
-
 dem_status dem_private_peaks_visit_nodes(const dem_peaks *p, rows_taker *take, void *context)
 {
     if (p->are_away && p->nodes == NULL) return leader_peaks_visit_nodes(p->away, p, take, context);
-    return visit_here(p->nodes, sizeof *p->nodes, p->n_nodes, take, context);
+    return rows_hand_over(p->nodes, sizeof *p->nodes, p->n_nodes, take, context);
 }
 
 dem_status dem_private_peaks_visit_springs(const dem_peaks *p, rows_taker *take, void *context)
 {
     if (p->are_away && p->springs == NULL) return leader_peaks_visit_springs(p->away, p, take, context);
-    return visit_here(p->springs, sizeof *p->springs, p->n_springs, take, context);
+    return rows_hand_over(p->springs, sizeof *p->springs, p->n_springs, take, context);
 }
 
 dem_status dem_private_peaks_pick_nodes(const dem_peaks *p, const dem_index *list, dem_index n, dem_node_peak *out)

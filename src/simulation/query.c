@@ -9,7 +9,6 @@
 
 #include <string.h>
 
-#include "base/motion_source.h"
 #include "base/reduce.h"
 #include "base/sorted.h"
 #include "base/status.h"
@@ -267,21 +266,6 @@ dem_status dem_simulation_contact(const dem_simulation *s, dem_index contact, de
 static dem_status ask_field(const dem_simulation *s, shared_field_kind field, void *out)
 {
     return out != NULL ? led_run_ask(s, RANK_CALL_FIELD, (dem_index)field, out) : DEM_OK;
-}
-
-dem_status dem_private_positions(const dem_simulation *s, double *out)
-{
-    if (s->leads != NULL) return ask_field(s, SHARED_FIELD_POSITIONS, out);
-    memcpy(out, seen_of(s), (size_t)state_row(&s->layout, s->model->lattice.n_nodes) * sizeof *out);
-    return DEM_OK;
-}
-
-dem_status dem_private_velocities(const dem_simulation *s, double *out)
-{
-    if (s->leads != NULL) return ask_field(s, SHARED_FIELD_VELOCITIES, out);
-    memcpy(out, seen_of(s) + state_velocities(&s->layout),
-           (size_t)state_row(&s->layout, s->model->lattice.n_nodes) * sizeof *out);
-    return DEM_OK;
 }
 
 /* What is broken at the time that is seen, as breaks are taken back with the other events: of a simulation that leads

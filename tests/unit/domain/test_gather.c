@@ -60,7 +60,7 @@ static int owner_of(dem_index k, int n_ranks)
 typedef struct many {
     unsigned char *whole; /* [MANY][SIZE] of rank 0 */
     bool is_good[MOST_RANKS];
-    dem_index n_taken; /* rows of pieces so far, on rank 0, */
+    dem_index n_taken; /* rows of chunks so far, on rank 0, */
     bool comes_apart;  /* whether one was not the next */
     int n_calls;
 } many;
@@ -70,18 +70,18 @@ static unsigned char byte_of(dem_index k, dem_index q)
     return (unsigned char)(k >> 4 * q);
 }
 
-static dem_status take_piece(void *context, dem_index first, dem_index n, const void *rows)
+static dem_status take_chunk(void *context, dem_index first, dem_index n, const void *rows)
 {
     many *m = context;
     const unsigned char *byte = rows;
-    bool is_next = first == m->n_taken && n <= GATHER_CHUNK;
+    bool is_next = first == m->n_taken && n <= ROWS_CHUNK;
     for (dem_index k = 0; k < SIZE * n; k++) is_next = is_next && byte[k] == byte_of(first + k / SIZE, k % SIZE);
     m->n_taken += n;
     m->comes_apart = m->comes_apart || !is_next;
     return DEM_OK;
 }
 
-static dem_status take_one_piece(void *context, dem_index first, dem_index n, const void *rows)
+static dem_status take_one_chunk(void *context, dem_index first, dem_index n, const void *rows)
 {
     many *m = context;
     (void)n;
@@ -91,9 +91,9 @@ static dem_status take_one_piece(void *context, dem_index first, dem_index n, co
 }
 
 /* What fails on rank 0 fails on all. */
-static bool pass_pieces(const ranks *r, const gather_items *items, const unsigned char *rows, many *m)
+static bool pass_chunks(const ranks *r, const gather_items *items, const unsigned char *rows, many *m)
 {
-    rows_taker *first = r->rank == 0 ? take_piece : NULL, *second = r->rank == 0 ? take_one_piece : NULL;
+    rows_taker *first = r->rank == 0 ? take_chunk : NULL, *second = r->rank == 0 ? take_one_chunk : NULL;
     return gather_chunks(r, items, SIZE, rows, first, m) == DEM_OK &&
            gather_chunks(r, items, SIZE, rows, second, m) == DEM_ERROR_IO;
 }
@@ -111,7 +111,7 @@ static void pass_many(const ranks *r, void *context)
         number[n++] = k;
     }
     const gather_items items = {.n = n, .n_whole = MANY, .number = number, .is_own = is_own};
-    m->is_good[r->rank] = gather_rows(r, &items, SIZE, rows, whole) == DEM_OK && pass_pieces(r, &items, rows, m);
+    m->is_good[r->rank] = gather_rows(r, &items, SIZE, rows, whole) == DEM_OK && pass_chunks(r, &items, rows, m);
     memset(rows, 0xee, (size_t)MANY * SIZE);
     if (gather_back(r, &items, SIZE, whole, rows) != DEM_OK) m->is_good[r->rank] = false;
     for (dem_index k = 0; k < SIZE * n; k++)
@@ -121,7 +121,7 @@ static void pass_many(const ranks *r, void *context)
     free(rows);
 }
 
-TEST(many_rows_come_piece_by_piece_and_go_back)
+TEST(many_rows_come_chunk_by_chunk_and_go_back)
 {
     for (int n_ranks = 1; n_ranks <= MOST_RANKS; n_ranks++) {
         CLEANUP(free_memory) unsigned char *whole = calloc(MANY, SIZE);

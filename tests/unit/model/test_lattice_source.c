@@ -20,7 +20,7 @@ static dem_status take(void *context, dem_index first, dem_index n, const void *
 {
     seen *s = context;
     const double *mass = items;
-    s->is_next = s->is_next && first == s->n && n <= LATTICE_SOURCE_CHUNK;
+    s->is_next = s->is_next && first == s->n && n <= ROWS_CHUNK;
     for (dem_index k = 0; k < n; k++) s->is_next = s->is_next && mass[k] == 1.0 / (double)(1 + first + k);
     s->n += n;
     return ++s->n_calls == s->fails_at ? DEM_ERROR_IO : DEM_OK;

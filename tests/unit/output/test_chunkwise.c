@@ -39,7 +39,7 @@ TEST(rows_are_filled_in)
     hdf5_file file;
     assert_ok(hdf5_open_new(&file, path, 1 << 20));
     assert_ok(chunkwise_fill(&file, rows, MANY, fill_squares, NULL));
-    assert_int_equal(read_all(&file, "/squares", H5T_NATIVE_DOUBLE, row), LATTICE_SOURCE_CHUNK);
+    assert_int_equal(read_all(&file, "/squares", H5T_NATIVE_DOUBLE, row), ROWS_CHUNK);
     for (dem_index k = 0; k < MANY; k++) assert_true(row[k] == (double)(k * k));
     assert_ok(hdf5_close(&file, DEM_OK));
 }
@@ -56,7 +56,7 @@ TEST(an_item_may_give_several_rows)
     l.ends = ends;
     assert_ok(hdf5_open_new(&file, path, 1 << 20));
     assert_ok(chunkwise_copy(&file, rows, &from, offsetof(dem_lattice, ends), MANY, 2));
-    assert_int_equal(read_all(&file, "/ends", H5T_NATIVE_INT64, row), 2 * LATTICE_SOURCE_CHUNK);
+    assert_int_equal(read_all(&file, "/ends", H5T_NATIVE_INT64, row), 2 * ROWS_CHUNK);
     assert_memory_equal(row, ends, 2 * MANY * sizeof *ends);
     assert_ok(hdf5_close(&file, DEM_OK));
 }
