@@ -12,8 +12,6 @@ typedef struct rank_order {
     int rank;         /**< who is to do it */
     size_t size;      /**< bytes */
     const void *what; /**< [size] */
-    size_t n_data;    /**< bytes */
-    const void *data; /**< [n_data] */
 } rank_order;
 
 /** How many ranks the run has that a simulation leads; 1 where it leads no others. Defined in simulation/led_run.c. */
@@ -24,10 +22,10 @@ int rank_order_ranks(const dem_simulation *simulation);
  *  \return the first failure, by the numbers of ranks */
 dem_status rank_order_give(const dem_simulation *simulation, const rank_order *orders, int n);
 
-/** Carries an order out, on the rank that it was given to. Defined in output/stripe_file.c.
+/** Carries an order out, on the rank that it was given to. Defined in output/rank_work.c.
  *  \param kept  what this rank keeps from one order to the next, NULL at first; to be freed by rank_order_forget()
  *  \param what  aligned as memory of malloc() */
-dem_status rank_order_obey(void **kept, const void *what, const void *data);
+dem_status rank_order_obey(void **kept, const void *what);
 
 /** Gives up what a rank has kept. No order depends on it: they only take longer without. */
 void rank_order_forget(void **kept);

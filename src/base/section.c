@@ -71,9 +71,7 @@ dem_status section_pack(section_streams *z, section *sections, int n, team *t)
     return DEM_OK;
 }
 
-uint32_t section_checksum(const section *sections, int n)
+uint32_t section_join(uint32_t checksum, uint32_t next, size_t size)
 {
-    uLong sum = adler32(0, NULL, 0);
-    for (int k = 0; k < n; k++) sum = adler32_combine(sum, sections[k].checksum, (z_off_t)sections[k].size);
-    return (uint32_t)sum;
+    return (uint32_t)adler32_combine(checksum, next, (z_off_t)size);
 }

@@ -34,15 +34,9 @@ size_t section_room(size_t size);
  *  \return DEM_ERROR_MEMORY; DEM_ERROR_IO if zlib fails */
 dem_status section_pack(section_streams *z, section *sections, int n, team *t);
 
-/** The same by the ranks of the run that a simulation leads. Defined in simulation/led_run.c, as those who write files
- *  see no more of a simulation than its public headers.
- *  \param sections       their bytes stand one behind the other, and so does the room for what is packed; `packed` is
- *                        moved within that
- *  \param[out] by_ranks  false: it leads no others, and nothing has been done */
-dem_status section_pack_by_ranks(const dem_simulation *simulation, section *sections, int n, bool *by_ranks);
-
-/** The Adler-32 of the bytes of n sections one behind the other. */
-uint32_t section_checksum(const section *sections, int n);
+/** The Adler-32 of bytes, and of a section's behind them; that of none is SECTION_NO_CHECKSUM. */
+#define SECTION_NO_CHECKSUM ((uint32_t)1)
+uint32_t section_join(uint32_t checksum, uint32_t next, size_t size);
 
 void section_streams_free(section_streams *z);
 

@@ -21,13 +21,6 @@ typedef struct collection {
     ranks_message *sent, *received; /* [ranks] */
 } collection;
 
-/* Numbers of the next rank are aligned. */
-static size_t size_of(const collection *c, dem_index n)
-{
-    const size_t bytes = (size_t)n * (sizeof(dem_index) + c->size), align = sizeof(dem_index);
-    return (bytes + align - 1) / align * align;
-}
-
 /* From each of the others to rank 0. */
 static void send_to_root(const collection *c, bool counts)
 {
@@ -36,7 +29,7 @@ static void send_to_root(const collection *c, bool counts)
     for (int k = 0; k < n; k++) {
         const int other = r->rank == 0 ? k + 1 : 0, of = r->rank == 0 ? other : r->rank;
         const ranks_message count = {other, sizeof *c->n, &c->n[of]};
-        const ranks_message rows = {other, size_of(c, c->n[of]), c->bytes[of]};
+        const ranks_message rows = {other, gather_message(c->n[of], c->size), c->bytes[of]};
         const ranks_message full = counts ? count : rows, empty = {other, 0, NULL};
         c->sent[k] = r->rank == 0 ? empty : full;
         c->received[k] = r->rank == 0 ? full : empty;
@@ -44,18 +37,12 @@ static void send_to_root(const collection *c, bool counts)
     r->exchange(r->self, n, c->sent, c->received);
 }
 
-static bool owns(const gather_items *items, dem_index i)
-{
-    const int n = items->n_corners;
-    return items->is_own[n > 0 ? domain_lowest(items->corners + n * i, n) : i] != 0;
-}
-
 /* \param end  of the chunk, by numbers of the whole  \return behind its last item here */
 static dem_index count(const collection *c, dem_index end)
 {
     const gather_items *items = c->items;
     dem_index *n = &c->n[c->ranks->rank], i = c->next;
-    for (*n = 0; i < items->n && items->number[i] < end; i++) *n += owns(items, i);
+    for (*n = 0; i < items->n && items->number[i] < end; i++) *n += gather_owns(items, i);
     return i;
 }
 
@@ -67,7 +54,7 @@ static void lay_out(const collection *c)
     c->bytes[r->rank] = at;
     for (int k = 0; k < r->size && r->rank == 0; k++) {
         c->bytes[k] = at;
-        at += size_of(c, c->n[k]);
+        at += gather_message(c->n[k], c->size);
     }
 }
 
@@ -77,7 +64,7 @@ static void pack(const collection *c, dem_index behind)
     dem_index *number = (dem_index *)(void *)c->bytes[c->ranks->rank];
     unsigned char *to = (unsigned char *)(number + c->n[c->ranks->rank]);
     for (dem_index i = c->next; i < behind; i++) {
-        if (!owns(items, i)) continue;
+        if (!gather_owns(items, i)) continue;
         *number++ = items->number[i];
         memcpy(to, c->from + (size_t)i * c->size, c->size);
         to += c->size;
@@ -115,7 +102,7 @@ static dem_status allocate(collection *c)
     c->bytes = calloc(n, sizeof *c->bytes);
     c->sent = calloc(n, sizeof *c->sent);
     c->received = calloc(n, sizeof *c->received);
-    c->buffer = malloc(size_of(c, most < ROWS_CHUNK ? most : ROWS_CHUNK) + n * sizeof(dem_index));
+    c->buffer = malloc(gather_message(most < ROWS_CHUNK ? most : ROWS_CHUNK, c->size) + n * sizeof(dem_index));
     CHECK(c->n && c->bytes && c->sent && c->received && c->buffer, DEM_ERROR_MEMORY,
           "out of memory for rows of %d ranks", c->ranks->size);
     return DEM_OK;

@@ -10,8 +10,8 @@
 /** The nodes, springs or triangles that a rank has. */
 typedef struct gather_items {
     dem_index n, n_whole;        /* here, and in the whole lattice */
-    const dem_index *number;     /* [n] in the whole lattice, ascending */
-    const unsigned char *is_own; /* [nodes] 1: owned here, as by no other rank */
+    const dem_index *number;     /* [n] in the whole lattice, ascending. For row_blocks.h NULL: they are all */
+    const unsigned char *is_own; /* [nodes] 1: owned here, as by no other rank. Likewise NULL: they are own */
     int n_corners;               /* nodes of a spring or triangle, which belongs to the lowest one; 0: it is a node */
     const dem_index *corners;    /* [n][n_corners] */
 } gather_items;
@@ -30,6 +30,26 @@ static inline gather_items gather_springs(const domain *d, const dem_lattice *l)
 static inline gather_items gather_triangles(const domain *d, const dem_lattice *l)
 {
     return (gather_items){l->n_triangles, d->n_triangles, d->triangle, d->is_own, 3, l->triangles};
+}
+
+/** Whether item i of those here is one of this rank's own. */
+static inline bool gather_owns(const gather_items *items, dem_index i)
+{
+    const int n = items->n_corners;
+    return items->is_own == NULL || items->is_own[n > 0 ? domain_lowest(items->corners + n * i, n) : i] != 0;
+}
+
+/** Its number in the whole lattice. */
+static inline dem_index gather_number(const gather_items *items, dem_index i)
+{
+    return items->number != NULL ? items->number[i] : i;
+}
+
+/** Bytes of a message of the numbers of n items and their rows, aligned for numbers. */
+static inline size_t gather_message(dem_index n, size_t size)
+{
+    const size_t bytes = (size_t)n * (sizeof(dem_index) + size), align = sizeof(dem_index);
+    return (bytes + align - 1) / align * align;
 }
 
 /** Puts what each rank has of its own items in an array into that of rank 0, so many at a time that messages take

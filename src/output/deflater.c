@@ -1,12 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Shuffled, the first bytes of all numbers stand one behind the other, then their second bytes, and so on: the *planes*
  * of a chunk. A *slice* of the chunk, some rows of it, has a range of each plane, which is a *section* of the stream:
- * deflated with nothing before it to refer to, and ended at a whole byte. The stream of a chunk is
- *   78 01      zlib's header: a window of 32 KiB, no dictionary
- *   sections   plane by plane, in each of them slice by slice
- *   03 00      an empty last block
- *   checksum   Adler-32 of all that is shuffled, joined from those of the sections, the highest byte first
- * which inflates as if it had been made at once. */
+ * deflated with nothing before it to refer to, and ended at a whole byte. Here slices are shuffled as if they were all
+ * of the chunk, and so have the same ranges. */
 #include "output/deflater.h"
 
 #include "base/status.h"
@@ -15,38 +11,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HEADER = 2, LAST_BLOCK = 2, CHECKSUM = 4 };
-
 /* Numbers `first` to `end` - 1 of `all`, a slice of them. */
 typedef struct span {
     size_t first, end, all;
 } span;
 
-/* A chunk that is being packed, and how it is cut. */
-typedef struct chunk {
+/* What is being packed. */
+typedef struct packing {
     deflater *deflater;
     deflater_numbers numbers;
-    size_t all;   /* numbers */
-    int n_slices; /* at least 1 */
-    int n_planes; /* that are sections; 1: all planes are one */
-} chunk;
+    size_t all; /* numbers */
+} packing;
 
-static chunk chunk_of(deflater *d, deflater_numbers m)
+int deflater_planes(deflater_numbers chunk)
 {
-    const size_t all = m.rows * m.columns, n = m.rows / DEFLATER_SLICE + (m.rows % DEFLATER_SLICE != 0);
-    return (chunk){d, m, all, n > 1 ? (int)n : 1, all >= DEFLATER_CUT ? (int)m.width : 1};
+    return chunk.rows * chunk.columns >= DEFLATER_CUT ? (int)chunk.width : 1;
 }
 
-static int count_sections(const chunk *c)
+static int count_sections(const deflater *d)
 {
-    return c->n_slices * c->n_planes;
+    return d->n_slices * d->n_planes;
 }
 
 /* The last slice may have less numbers than others. */
-static span span_of(const chunk *c, int slice)
+static span span_of(const packing *p, int slice)
 {
-    const size_t most = DEFLATER_SLICE * c->numbers.columns, first = (size_t)slice * most;
-    return (span){first, first + most < c->all ? first + most : c->all, c->all};
+    const size_t most = DEFLATER_SLICE * p->numbers.columns, first = (size_t)slice * most;
+    return (span){first, first + most < p->all ? first + most : p->all, p->all};
 }
 
 /* ---- shuffling ---- */
@@ -109,11 +100,11 @@ static void *make_room(void *before, size_t *room, size_t bytes)
     return buffer;
 }
 
-/* The sections as they stand in the stream, each in what is shuffled and with the room that it can take at most. */
-static void place(const chunk *c)
+/* Each section in what is shuffled, and with the room that it can take at most. */
+static void place(const deflater *d)
 {
-    unsigned char *bytes = c->deflater->shuffled, *packed = c->deflater->packed + HEADER;
-    for (section *s = c->deflater->sections; s < c->deflater->sections + count_sections(c); s++) {
+    unsigned char *bytes = d->shuffled, *packed = d->packed;
+    for (section *s = d->sections; s < d->sections + count_sections(d); s++) {
         s->bytes = bytes;
         s->packed = packed;
         bytes += s->size;
@@ -121,31 +112,32 @@ static void place(const chunk *c)
     }
 }
 
-/* \return bytes that the stream can take at most */
-static size_t measure(const chunk *c, int level)
+/* \return bytes that all sections can take at most */
+static size_t measure(const packing *p, int level)
 {
-    size_t room = HEADER + LAST_BLOCK + CHECKSUM;
-    section *s = c->deflater->sections;
-    for (int plane = 0; plane < c->n_planes; plane++)
-        for (int slice = 0; slice < c->n_slices; slice++, s++) {
-            const span p = span_of(c, slice);
-            s->size = (p.end - p.first) * (c->numbers.width / (size_t)c->n_planes);
+    const deflater *d = p->deflater;
+    size_t room = 0;
+    section *s = d->sections;
+    for (int plane = 0; plane < d->n_planes; plane++)
+        for (int slice = 0; slice < d->n_slices; slice++, s++) {
+            const span range = span_of(p, slice);
+            s->size = (range.end - range.first) * (p->numbers.width / (size_t)d->n_planes);
             s->level = level;
             room += section_room(s->size);
         }
     return room;
 }
 
-static dem_status prepare(const chunk *c, int level)
+static dem_status prepare(const packing *p, int level)
 {
-    deflater *d = c->deflater;
-    d->sections = make_room(d->sections, &d->sections_room, (size_t)count_sections(c) * sizeof *d->sections);
+    deflater *d = p->deflater;
+    d->sections = make_room(d->sections, &d->sections_room, (size_t)count_sections(d) * sizeof *d->sections);
     CHECK_MEMORY(d->sections);
-    d->shuffled = make_room(d->shuffled, &d->room, c->all * c->numbers.width);
+    d->shuffled = make_room(d->shuffled, &d->room, p->all * p->numbers.width);
     CHECK_MEMORY(d->shuffled);
-    d->packed = make_room(d->packed, &d->packed_room, measure(c, level));
+    d->packed = make_room(d->packed, &d->packed_room, measure(p, level));
     CHECK_MEMORY(d->packed);
-    place(c);
+    place(d);
     return DEM_OK;
 }
 
@@ -172,47 +164,26 @@ static bool repeats(const unsigned char *bytes, size_t n)
  * than runs of equal ones; of a section of all planes those in the middle of the numbers do. */
 static void shuffle_slice(const void *context, int slice, int thread)
 {
-    const chunk *c = context;
-    const deflater *d = c->deflater;
-    const span p = span_of(c, slice);
+    const packing *p = context;
+    const deflater *d = p->deflater;
+    const span range = span_of(p, slice);
     (void)thread;
-    shuffle(d->shuffled, c->numbers, p);
-    for (int plane = 0; plane < c->n_planes; plane++) {
-        const size_t seen = c->n_planes > 1 ? (size_t)plane : c->numbers.width / 2;
-        section *s = &d->sections[plane * c->n_slices + slice];
-        s->only_runs = s->level == 1 && !repeats(d->shuffled + seen * p.all + p.first, p.end - p.first);
+    shuffle(d->shuffled, p->numbers, range);
+    for (int plane = 0; plane < d->n_planes; plane++) {
+        const size_t seen = d->n_planes > 1 ? (size_t)plane : p->numbers.width / 2;
+        section *s = &d->sections[plane * d->n_slices + slice];
+        s->only_runs = s->level == 1 && !repeats(d->shuffled + seen * p->all + range.first, range.end - range.first);
     }
 }
 
-/* Moves the sections together, and writes what is before and behind them. */
-static void join(deflater *d, int n_sections)
+dem_status deflater_pack(deflater *d, deflater_numbers numbers, int n_planes, int level, team *t)
 {
-    static const unsigned char header[HEADER] = {0x78, 0x01}, last_block[LAST_BLOCK] = {0x03, 0x00};
-    const uint32_t sum = section_checksum(d->sections, n_sections);
-    unsigned char *out = d->packed;
-    memcpy(out, header, sizeof header);
-    out += sizeof header;
-    for (const section *s = d->sections; s < d->sections + n_sections; s++) {
-        memmove(out, s->packed, s->n_packed);
-        out += s->n_packed;
-    }
-    memcpy(out, last_block, sizeof last_block);
-    out += sizeof last_block;
-    for (int shift = 24; shift >= 0; shift -= 8) *out++ = (unsigned char)(sum >> shift);
-    d->n_packed = (size_t)(out - d->packed);
-}
-
-dem_status deflater_pack(deflater *d, deflater_numbers numbers, int level, deflater_helpers h)
-{
-    const chunk c = chunk_of(d, numbers);
-    const int n = count_sections(&c);
-    bool by_ranks = false;
-    TRY(prepare(&c, level));
-    team_run(h.team, c.n_slices, shuffle_slice, &c);
-    if (h.simulation != NULL && n > 1) TRY(section_pack_by_ranks(h.simulation, d->sections, n, &by_ranks));
-    if (!by_ranks) TRY(section_pack(&d->streams, d->sections, n, h.team));
-    join(d, n);
-    return DEM_OK;
+    const packing p = {d, numbers, numbers.rows * numbers.columns};
+    d->n_slices = (int)((numbers.rows + DEFLATER_SLICE - 1) / DEFLATER_SLICE);
+    d->n_planes = n_planes;
+    TRY(prepare(&p, level));
+    team_run(t, d->n_slices, shuffle_slice, &p);
+    return section_pack(&d->streams, d->sections, count_sections(d), t);
 }
 
 void deflater_free(deflater *d)

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Packs the numbers of a chunk as HDF5's filters shuffle and deflate do, so that any reader unpacks them, but without
  * making a new zlib stream for each, and in sections of the stream that depend on nothing but their own numbers, so
- * that threads make them in any order. At level 1 only runs of equal bytes are looked for where little else would be
- * found in twice the time, as in numbers of a body that is deformed (docs/performance.md). */
+ * that threads and ranks make them in any order; output/deflated_chunk.h puts them together. At level 1 only runs of
+ * equal bytes are looked for where little else would be found in twice the time, as in numbers of a body that is
+ * deformed (docs/performance.md). */
 #ifndef DEM_OUTPUT_DEFLATER_H
 #define DEM_OUTPUT_DEFLATER_H
 
@@ -20,9 +21,9 @@ typedef struct deflater {
     section_streams streams;
     unsigned char *shuffled;                 /**< [room] */
     unsigned char *packed;                   /**< [packed_room] */
-    section *sections;                       /**< of the stream */
+    section *sections;                       /**< [n_planes][n_slices] of what was packed last */
+    int n_planes, n_slices;                  /**< where there is one plane, it is all of them */
     size_t room, packed_room, sections_room; /**< bytes */
-    size_t n_packed;                         /**< bytes that deflater_pack() has left in `packed` */
 } deflater;
 
 typedef struct deflater_numbers {
@@ -32,16 +33,16 @@ typedef struct deflater_numbers {
     bool narrows; /**< `data` are doubles, of which floats are stored */
 } deflater_numbers;
 
-/** Who packs, to the same bytes. */
-typedef struct deflater_helpers {
-    team *team;                       /**< whose threads do it; NULL: the caller */
-    const dem_simulation *simulation; /**< whose ranks do it, where it leads some; NULL: no others */
-} deflater_helpers;
+/** Into how many planes the numbers of a chunk are cut. Its data are not looked at. */
+int deflater_planes(deflater_numbers chunk);
 
-/** Packs into d->packed, which the next call overwrites.
- *  \param level  1 to 9
+/** Packs some slices of a chunk, at least one, into d->sections, which the next call overwrites.
+ *  \param slices    whole ones, but for the last one of the chunk
+ *  \param n_planes  deflater_planes() of the chunk
+ *  \param level     1 to 9
+ *  \param t         whose threads do it; NULL: the caller
  *  \return DEM_ERROR_MEMORY */
-dem_status deflater_pack(deflater *d, deflater_numbers numbers, int level, deflater_helpers h);
+dem_status deflater_pack(deflater *d, deflater_numbers slices, int n_planes, int level, team *t);
 
 void deflater_free(deflater *d);
 

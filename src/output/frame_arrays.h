@@ -6,6 +6,7 @@
 
 #include <dem/trajectory.h>
 
+#include "base/field_order.h"
 #include "output/hdf5_rows.h"
 
 enum { FRAME_ARRAYS = 16 };
@@ -33,7 +34,6 @@ typedef struct frames {
     dem_index before; /* frames in the files before this one */
     dem_index n;      /* frames in this file */
     double last;      /* time of the last frame, s */
-    double *scratch;  /* the array that is being written: [6 n_nodes], [n_springs] or [n_triangles] */
 } frames;
 
 /** What an array has a row of: nothing, each frame, each node, spring or triangle of a frame. */
@@ -62,24 +62,21 @@ const char *frame_arrays_offset(int array);
 /** Bytes of a row in memory. */
 size_t frame_arrays_row_bytes(int array);
 
-/** Allocates f->scratch, to be freed. */
-dem_status frame_arrays_make_scratch(frames *f);
+/** The field of which it is made. Arrays of one field come one behind the other. */
+field_kind frame_arrays_field(int array);
 
-/** Takes an array of a frame, [rows of the whole][components]. */
-typedef dem_status frame_arrays_taker(void *context, int array, const void *data);
+/** Makes rows of an array from n rows of its field.
+ *  \param room  [n][components]
+ *  \return `room`, or `rows` where they are the same */
+const void *frame_arrays_convert(int array, dem_index n, const void *rows, void *room);
 
-/** Hands all arrays of the present state of the simulation over, one after the other. */
-dem_status frame_arrays_hand_out(const frames *f, const dem_simulation *simulation, frame_arrays_taker *take,
-                                 void *context);
-
-/** Writes an array as that of a frame, if frames have it; and an upper bound of the bytes of all arrays of a frame. */
-dem_status frame_arrays_append(const frames *f, const hdf5_file *file, int array, hsize_t frame, const void *data);
+/** An upper bound of the bytes of all arrays of a frame. */
 hsize_t frame_arrays_bytes(const frames *f);
 
 /** Frames of a file of the whole that go to one of a range of each of its arrays, or of all rows. */
 typedef struct frame_arrays_copying {
-    const frames *whole, *target; /* the same, or the target has a scratch of its own */
-    dem_index first[FRAME_OFS];   /* row of the whole at which those of the target begin */
+    const frames *whole, *target;
+    dem_index first[FRAME_OFS]; /* row of the whole at which those of the target begin */
     const hdf5_file *from, *to;
 } frame_arrays_copying;
 

@@ -25,22 +25,8 @@ frames frame_stripes_get(const frames *f, int k)
                     .n_triangles = rows_of(f, FRAME_OF_TRIANGLES, k),
                     .fields = f->fields,
                     .real = f->real,
-                    .deflate = f->deflate};
-}
-
-size_t frame_stripes_first_byte(const frames *f, int array, int k)
-{
-    return (size_t)first_of(f, frame_arrays_of(array), k) * frame_arrays_row_bytes(array);
-}
-
-size_t frame_stripes_bytes(const frames *f, int k, int first, int end)
-{
-    size_t bytes = 0;
-    for (int a = first; a < end; a++) {
-        const size_t rows = frame_stripes_first_byte(f, a, k + 1) - frame_stripes_first_byte(f, a, k);
-        if (frame_arrays_is_wanted(f, a)) bytes += (rows + 7) / 8 * 8;
-    }
-    return bytes;
+                    .deflate = f->deflate,
+                    .n = f->n};
 }
 
 dem_status frame_stripes_create(const frames *stripe, const hdf5_file *file)
@@ -52,16 +38,12 @@ dem_status frame_stripes_create(const frames *stripe, const hdf5_file *file)
     return DEM_OK;
 }
 
-/* The scratch is that of one frame. */
 dem_status frame_stripes_copy(const frames *f, int k, const hdf5_file *from, const hdf5_file *to, hdf5_span span)
 {
-    frames stripe = frame_stripes_get(f, k);
-    TRY(frame_arrays_make_scratch(&stripe));
+    const frames stripe = frame_stripes_get(f, k);
     frame_arrays_copying c = {.whole = f, .target = &stripe, .from = from, .to = to};
     for (frame_of of = 0; of < FRAME_OFS; of++) c.first[of] = first_of(f, of, k);
-    const dem_status status = frame_arrays_copy(&c, span);
-    free(stripe.scratch);
-    return status;
+    return frame_arrays_copy(&c, span);
 }
 
 /* A stripe may have no row of a small array. */

@@ -9,13 +9,6 @@
 /** The frames of stripe k, 0 <= k < f->n_stripes, which are all in one file. */
 frames frame_stripes_get(const frames *f, int k);
 
-/** Where its rows of an array begin: in memory. */
-size_t frame_stripes_first_byte(const frames *f, int array, int k);
-
-/** Bytes that stripe k has of the arrays `first` to `end` - 1 of a frame, one behind the other, each from a multiple of
- *  eight bytes on; which are an upper bound of those that they take in its file. */
-size_t frame_stripes_bytes(const frames *f, int k, int first, int end);
-
 /** Makes the arrays in the file of a stripe, without frames. */
 dem_status frame_stripes_create(const frames *stripe, const hdf5_file *file);
 

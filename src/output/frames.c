@@ -24,6 +24,7 @@
 #include "base/status.h"
 #include "output/chunkwise.h"
 #include "output/frame_stripes.h"
+#include "output/frame_writer.h"
 #include "output/hdf5_attribute.h"
 #include "output/vtk_grid.h"
 
@@ -190,26 +191,17 @@ dem_status frames_create(const frames *f, const hdf5_file *file, const lattice_s
     return create_rows(f, file);
 }
 
-dem_status frames_init(frames *out, const dem_model *model, const dem_trajectory_options *options)
+void frames_init(frames *out, const dem_model *model, const dem_trajectory_options *options)
 {
     dem_model_size size = {.struct_size = sizeof size};
     (void)dem_model_sizes(model, &size);
-    frames f = {.n_nodes = size.n_nodes,
-                .n_springs = size.n_springs,
-                .n_triangles = size.n_triangles,
-                .fields = options->fields,
-                .real = options->double_precision ? HDF5_F64 : HDF5_F32,
-                .deflate = options->deflate,
-                .n_stripes = options->writers > 1 ? options->writers : 0};
-    TRY(frame_arrays_make_scratch(&f));
-    *out = f;
-    return DEM_OK;
-}
-
-void frames_free(frames *f)
-{
-    free(f->scratch);
-    *f = (frames){0};
+    *out = (frames){.n_nodes = size.n_nodes,
+                    .n_springs = size.n_springs,
+                    .n_triangles = size.n_triangles,
+                    .fields = options->fields,
+                    .real = options->double_precision ? HDF5_F64 : HDF5_F32,
+                    .deflate = options->deflate,
+                    .n_stripes = options->writers > 1 ? options->writers : 0};
 }
 
 /* ---- frames ---- */
@@ -218,18 +210,6 @@ void frames_free(frames *f)
 static dem_status append_row(const frames *f, const hdf5_file *file, hdf5_rows rows, const void *value)
 {
     return hdf5_append(file, &rows, (hsize_t)f->n, 1, value);
-}
-
-/* Frames that are being written. */
-typedef struct writing {
-    const frames *frames;
-    const hdf5_file *file;
-} writing;
-
-static dem_status append_array(void *context, int array, const void *data)
-{
-    const writing *w = context;
-    return frame_arrays_append(w->frames, w->file, array, (hsize_t)w->frames->n, data);
 }
 
 /* The ledger of this frame, in the order of `energies`. The number of contacts is a real, as VTK's field data are
@@ -276,9 +256,8 @@ hsize_t frames_bytes(const frames *f)
 dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simulation *simulation)
 {
     dem_progress now = {.struct_size = sizeof now};
-    writing w = {f, file};
     TRY(dem_simulation_progress(simulation, &now));
-    if (f->n_stripes == 0) TRY(frame_arrays_hand_out(f, simulation, append_array, &w));
+    if (f->n_stripes == 0) TRY(frame_writer_append(f, file, simulation));
     TRY(append_energies(f, file, simulation, now.n_contacts));
     TRY(append_steps(f, file, now.t));
     return write_count(f, file, f->n + 1);

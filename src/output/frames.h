@@ -18,9 +18,7 @@ typedef struct frames_constant {
     int components;
 } frames_constant;
 
-/** Free with frames_free(). */
-dem_status frames_init(frames *out, const dem_model *model, const dem_trajectory_options *options);
-void frames_free(frames *f);
+void frames_init(frames *out, const dem_model *model, const dem_trajectory_options *options);
 
 /** Makes the group with the grid and no frame. */
 dem_status frames_create(const frames *f, const hdf5_file *file, const lattice_source *lattice);

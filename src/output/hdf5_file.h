@@ -21,9 +21,9 @@ typedef struct hdf5_file {
     const char *path;
     H5E_auto2_t report; /**< how errors were printed before */
     void *report_data;
-    unsigned plugins;         /**< whether plugins were loaded before */
-    deflater *deflater;       /**< of a file that is written to */
-    deflater_helpers helpers; /**< none at first */
+    unsigned plugins;   /**< whether plugins were loaded before */
+    deflater *deflater; /**< of a file that is written to */
+    team *team;         /**< whose threads pack; NULL at first: the caller */
     kept_datasets *kept;
     bool in_memory;     /**< until it is closed */
     bool takes_stripes; /**< of one that may come from anywhere: its rows may stand in files beside it */

@@ -4,12 +4,11 @@
 #include "output/hdf5_rows.h"
 
 #include "base/status.h"
+#include "output/deflated_chunk.h"
 #include "output/hdf5_chunks.h"
 
 #include <stdbool.h>
 #include <stdlib.h>
-
-enum { CHUNK_LIMIT = 1 << 26 }; /* rows; HDF5 takes chunks below 4 GiB */
 
 hid_t hdf5_file_type(hdf5_kind kind)
 {
@@ -45,10 +44,23 @@ hid_t hdf5_memory_type(hdf5_kind kind)
     }
 }
 
+/* Numbers of a row. */
+static hsize_t width_of(const hdf5_rows *rows)
+{
+    return (rows->rank > 1 ? rows->tail[0] : 1) * (rows->rank > 2 ? rows->tail[1] : 1);
+}
+
+/* HDF5 takes chunks below 4 GiB. */
+static hsize_t chunk_limit(const hdf5_rows *rows)
+{
+    return UINT32_MAX / (width_of(rows) * H5Tget_size(hdf5_file_type(rows->kind)));
+}
+
 /* Chunks of rows, without time stamps; shuffled and deflated if asked for. A negative number on failure. */
 static hid_t make_layout(const hdf5_rows *rows)
 {
-    const hsize_t chunk = rows->chunk < 1 ? 1 : rows->chunk > CHUNK_LIMIT ? CHUNK_LIMIT : rows->chunk;
+    const hsize_t limit = chunk_limit(rows);
+    const hsize_t chunk = rows->chunk < 1 ? 1 : rows->chunk > limit ? limit : rows->chunk;
     const hsize_t extent[HDF5_MAX_RANK] = {chunk, rows->tail[0], rows->tail[1]};
     const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
     herr_t result = H5Pset_chunk(layout, rows->rank, extent);
@@ -113,68 +125,110 @@ dem_status hdf5_map(const hdf5_file *file, const hdf5_rows *rows, hsize_t count,
     return make_dataset(file, rows, space, layout, is_free && add_stripes(layout, rows, extent, stripes, n) >= 0);
 }
 
-/* Numbers of a row. */
-static hsize_t width_of(const hdf5_rows *rows)
-{
-    return (rows->rank > 1 ? rows->tail[0] : 1) * (rows->rank > 2 ? rows->tail[1] : 1);
-}
-
 size_t hdf5_row_bytes(const hdf5_rows *rows)
 {
     return (size_t)width_of(rows) * H5Tget_size(hdf5_memory_type(rows->kind));
 }
 
-/* Whether the rows are all of a chunk, and in memory as they are stored but for their precision. */
-static bool is_chunk(const hdf5_rows *rows, hsize_t first, hsize_t count)
+bool hdf5_packs(const hdf5_rows *rows)
 {
-    const bool whole = count > 0 && count == rows->chunk && count <= CHUNK_LIMIT && first % count == 0;
-    return whole && rows->deflate > 0 && rows->kind != HDF5_I8 && H5Tequal(H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE) > 0;
+    return rows->deflate > 0 && rows->kind != HDF5_I8 && rows->chunk <= chunk_limit(rows) &&
+           H5Tequal(H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE) > 0;
 }
+
+deflater_numbers hdf5_numbers(const hdf5_rows *rows, hsize_t count, const void *data)
+{
+    return (deflater_numbers){data, count, width_of(rows), H5Tget_size(hdf5_file_type(rows->kind)),
+                              rows->kind == HDF5_F32};
+}
+
+/* ---- writing ---- */
+
+/* Rows that a dataset gets. */
+typedef struct addition {
+    const hdf5_file *file;
+    const hdf5_rows *rows;
+    hsize_t first, count;
+    const void *data; /* [count] rows, or [packed] bytes of a chunk that they are */
+    size_t packed;    /* 0: they are not packed */
+    bool sets_extent; /* behind them there is nothing */
+} addition;
 
 /* A chunk at once, past HDF5's conversion, cache and filters. */
-static dem_status write_chunk(const hdf5_file *file, const hdf5_rows *rows, hid_t dataset, hsize_t first,
-                              const void *data)
+static herr_t write_packed(const addition *a, hid_t dataset)
 {
-    const hsize_t start[HDF5_MAX_RANK] = {first};
-    deflater *d = file->deflater;
-    const deflater_numbers numbers = {data, rows->chunk, width_of(rows), H5Tget_size(hdf5_file_type(rows->kind)),
-                                      rows->kind == HDF5_F32};
-    TRY(deflater_pack(d, numbers, rows->deflate, file->helpers));
-    if (H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, start, d->n_packed, d->packed) < 0)
-        return hdf5_fail(file, rows->name, "cannot be written");
-    return DEM_OK;
+    const hsize_t start[HDF5_MAX_RANK] = {a->first};
+    return H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, start, a->packed, a->data);
 }
 
-static dem_status write_slab(const hdf5_file *file, const hdf5_rows *rows, hid_t dataset, hdf5_span span,
-                             const void *data)
+static herr_t write_slab(const addition *a, hid_t dataset)
 {
-    const hsize_t start[HDF5_MAX_RANK] = {span.at}, block[HDF5_MAX_RANK] = {span.count, rows->tail[0], rows->tail[1]};
+    const hdf5_rows *rows = a->rows;
+    const hsize_t start[HDF5_MAX_RANK] = {a->first}, block[HDF5_MAX_RANK] = {a->count, rows->tail[0], rows->tail[1]};
     const hid_t memory = H5Screate_simple(rows->rank, block, NULL), space = H5Dget_space(dataset);
-    dem_status status = DEM_OK;
-    if (space < 0 || H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, block, NULL) < 0 ||
-        H5Dwrite(dataset, hdf5_memory_type(rows->kind), memory, space, H5P_DEFAULT, data) < 0)
-        status = hdf5_fail(file, rows->name, "cannot be written");
+    herr_t result = space < 0 ? -1 : H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, block, NULL);
+    if (result >= 0) result = H5Dwrite(dataset, hdf5_memory_type(rows->kind), memory, space, H5P_DEFAULT, a->data);
     if (space >= 0) (void)H5Sclose(space);
     (void)H5Sclose(memory);
+    return result;
+}
+
+/* Rows behind the new ones, which a failed attempt has left, are cut off. */
+static herr_t add(const addition *a, hid_t dataset)
+{
+    const hsize_t whole[HDF5_MAX_RANK] = {a->first + a->count, a->rows->tail[0], a->rows->tail[1]};
+    if (dataset < 0 || (a->sets_extent && H5Dset_extent(dataset, whole) < 0)) return -1;
+    if (a->packed > 0) return write_packed(a, dataset);
+    return a->count > 0 && a->data != NULL ? write_slab(a, dataset) : 0;
+}
+
+/* Closing the dataset may be what fails: its chunk cache is written then. */
+static dem_status write_rows(const addition *a)
+{
+    const hdf5_file *file = a->file;
+    dem_status status = DEM_OK;
+    const hid_t dataset = kept_datasets_open(file->kept, file->id, a->rows->name);
+    if (add(a, dataset) < 0) status = hdf5_fail(file, a->rows->name, "cannot be written");
+    if (dataset >= 0 && kept_datasets_leave(file->kept, dataset) < 0 && status == DEM_OK)
+        status = hdf5_fail(file, a->rows->name, "cannot be written");
     return status;
 }
 
-/* Sets the number of rows to first + count, which also cuts off rows that a failed attempt has left, and fills the new
- * ones. Closing the dataset may be what fails: its chunk cache is written then. */
+dem_status hdf5_extend(const hdf5_file *file, const hdf5_rows *rows, hsize_t count)
+{
+    return write_rows(&(addition){file, rows, count, 0, NULL, 0, true});
+}
+
+dem_status hdf5_put(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, const void *data)
+{
+    return write_rows(&(addition){file, rows, first, count, data, 0, false});
+}
+
+dem_status hdf5_append_packed(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, const deflated_run *chunk)
+{
+    return write_rows(&(addition){file, rows, first, rows->chunk, chunk->bytes, chunk->n, true});
+}
+
+/* All of a chunk. */
+static dem_status append_chunk(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, const void *data)
+{
+    deflater *d = file->deflater;
+    deflated_chunk c = {0};
+    const deflater_numbers numbers = hdf5_numbers(rows, rows->chunk, data);
+    dem_status status = deflated_chunk_begin(&c, deflater_planes(numbers), 1);
+    if (status == DEM_OK) status = deflater_pack(d, numbers, c.n_planes, rows->deflate, file->team);
+    if (status == DEM_OK) status = deflated_chunk_add(&c, 0, d->sections, d->n_slices);
+    if (status == DEM_OK) status = deflated_chunk_end(&c);
+    if (status == DEM_OK) status = hdf5_append_packed(file, rows, first, &c.all);
+    deflated_chunk_free(&c);
+    return status;
+}
+
 dem_status hdf5_append(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, const void *data)
 {
-    const hsize_t whole[HDF5_MAX_RANK] = {first + count, rows->tail[0], rows->tail[1]};
-    dem_status status = DEM_OK;
-    const hid_t dataset = kept_datasets_open(file->kept, file->id, rows->name);
-    if (dataset < 0 || H5Dset_extent(dataset, whole) < 0)
-        status = hdf5_fail(file, rows->name, "cannot be written");
-    else if (is_chunk(rows, first, count))
-        status = write_chunk(file, rows, dataset, first, data);
-    else if (count > 0)
-        status = write_slab(file, rows, dataset, (hdf5_span){0, count, first}, data);
-    if (dataset >= 0 && kept_datasets_leave(file->kept, dataset) < 0 && status == DEM_OK)
-        status = hdf5_fail(file, rows->name, "cannot be written");
-    return status;
+    const bool is_chunk = count > 0 && count == rows->chunk && first % count == 0;
+    if (is_chunk && hdf5_packs(rows)) return append_chunk(file, rows, first, data);
+    return write_rows(&(addition){file, rows, first, count, data, 0, true});
 }
 
 dem_status hdf5_read(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, void *data)

@@ -3,6 +3,7 @@
 #ifndef DEM_OUTPUT_HDF5_ROWS_H
 #define DEM_OUTPUT_HDF5_ROWS_H
 
+#include "output/deflated_chunk.h"
 #include "output/hdf5_file.h"
 #include "output/hdf5_stripes.h"
 
@@ -37,6 +38,18 @@ dem_status hdf5_create(const hdf5_file *file, const hdf5_rows *rows);
 
 /** Stores `count` rows from row `first` on; rows behind them are cut off. */
 dem_status hdf5_append(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, const void *data);
+
+/** The same of a chunk of rows that is packed. */
+dem_status hdf5_append_packed(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, const deflated_run *chunk);
+
+/** Whether whole chunks of these rows can be packed by others (output/deflater.h), and the numbers to be packed of some
+ *  rows in memory. */
+bool hdf5_packs(const hdf5_rows *rows);
+deflater_numbers hdf5_numbers(const hdf5_rows *rows, hsize_t count, const void *data);
+
+/** Gives a dataset so many rows, and stores some of them. */
+dem_status hdf5_extend(const hdf5_file *file, const hdf5_rows *rows, hsize_t count);
+dem_status hdf5_put(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, const void *data);
 
 /** Makes a dataset whose rows stand in n other files, in place of one of that name.
  *  \param count    rows; 0 of one that grows

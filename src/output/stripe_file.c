@@ -4,7 +4,6 @@
 #include "output/stripe_file.h"
 
 #include "base/publish.h"
-#include "base/rank_order.h"
 #include "base/status.h"
 #include "output/hdf5_attribute.h"
 
@@ -17,27 +16,37 @@
 /* The attribute of its root that says of which run it is. */
 static const char mark[] = "stripe_of";
 
-/* What a rank keeps from one order to the next: a file that is paused. */
-typedef struct open_stripe {
+struct open_stripe {
     hdf5_file file;
     char path[HDF5_PATH];
-} open_stripe;
+};
 
-static dem_status close_kept(void **kept)
+dem_status stripe_file_path(char out[HDF5_PATH], const char *whole, numbered_file file)
+{
+    enum { SUFFIX = sizeof ".vtkhdf" - 1 };
+    char end[NUMBERED_FILE];
+    numbered_file_print(end, file);
+    const int n = snprintf(out, HDF5_PATH, "%.*s%s", (int)strlen(whole) - SUFFIX, whole, end);
+    CHECK(n > 0 && n < HDF5_PATH, DEM_ERROR_IO, "%s: the name of a stripe is too long", whole);
+    return DEM_OK;
+}
+
+/* ---- a file that stays open ---- */
+
+dem_status stripe_file_close(open_stripe **kept)
 {
     open_stripe *s = *kept;
     *kept = NULL;
-    const dem_status status = s != NULL ? hdf5_close_paused(&s->file) : DEM_OK;
+    if (s == NULL) return DEM_OK;
+    const dem_status status = hdf5_close_paused(&s->file);
     free(s);
     return status;
 }
 
-static dem_status open_kept(void **kept, const char *path, hsize_t bytes)
+static dem_status open_anew(open_stripe **kept, const char *path, hsize_t bytes)
 {
-    open_stripe *s = *kept;
-    if (s != NULL && strcmp(s->path, path) == 0) return hdf5_resume(&s->file, bytes);
-    TRY(close_kept(kept));
-    s = malloc(sizeof *s);
+    TRY(stripe_file_close(kept));
+    open_stripe *s = calloc(1, sizeof *s);
     CHECK_MEMORY(s);
     memcpy(s->path, path, sizeof s->path);
     const dem_status status = hdf5_open_write(&s->file, s->path, bytes);
@@ -50,8 +59,23 @@ static dem_status open_kept(void **kept, const char *path, hsize_t bytes)
     return DEM_OK;
 }
 
+dem_status stripe_file_enter(open_stripe **kept, const stripe_name *name, int stripe, hsize_t bytes)
+{
+    open_stripe *s = *kept;
+    char path[HDF5_PATH];
+    const numbered_file file = {.segment = name->number, .stripe = stripe + 1, .n = name->n};
+    TRY(stripe_file_path(path, name->path, file));
+    if (s == NULL || strcmp(s->path, path) != 0) return open_anew(kept, path, bytes);
+    return hdf5_resume(&s->file, bytes);
+}
+
+const hdf5_file *stripe_file_entered(const open_stripe *s)
+{
+    return &s->file;
+}
+
 /* After a failure it is opened anew the next time. */
-static dem_status leave_kept(void **kept, bool stays_open, dem_status status)
+dem_status stripe_file_leave(open_stripe **kept, bool stays_open, dem_status status)
 {
     open_stripe *s = *kept;
     status = stays_open ? hdf5_pause(&s->file, status) : hdf5_close(&s->file, status);
@@ -60,6 +84,8 @@ static dem_status leave_kept(void **kept, bool stays_open, dem_status status)
     *kept = NULL;
     return status;
 }
+
+/* ---- orders ---- */
 
 /* It is marked before there is anything else in it, and on the disk. */
 static dem_status create(const stripe_order *o, const frames *stripe)
@@ -103,21 +129,6 @@ bool stripe_file_is_of(const char *path, int64_t run)
     return status == DEM_OK && hdf5_close(&file, hdf5_expect_attribute(&file, "/", mark, run)) == DEM_OK;
 }
 
-static dem_status write_arrays(const stripe_order *o, const frames *stripe, const hdf5_file *file, const char *data)
-{
-    for (int k = o->first; k < o->end; k++) {
-        TRY(frame_arrays_append(stripe, file, k, o->frames.first, data));
-        data += frame_stripes_bytes(&o->whole, o->stripe, k, k + 1);
-    }
-    return DEM_OK;
-}
-
-static dem_status write_frame(void **kept, const stripe_order *o, const frames *stripe, const void *data)
-{
-    TRY(open_kept(kept, o->path, frame_stripes_bytes(&o->whole, o->stripe, o->first, o->end)));
-    return leave_kept(kept, o->stays_open, write_arrays(o, stripe, &((open_stripe *)*kept)->file, data));
-}
-
 static dem_status link_file(const stripe_order *o, const frames *stripe)
 {
     hdf5_file file;
@@ -140,16 +151,13 @@ static dem_status copy(const stripe_order *o, const frames *stripe)
     return hdf5_close(&to, status);
 }
 
-dem_status rank_order_obey(void **kept, const void *what, const void *data)
+dem_status stripe_file_obey(open_stripe **kept, const stripe_order *o)
 {
-    const stripe_order *o = what;
     const frames stripe = frame_stripes_get(&o->whole, o->stripe);
-    if (o->kind != STRIPE_WRITE) TRY(close_kept(kept));
+    TRY(stripe_file_close(kept));
     switch (o->kind) {
     case STRIPE_CREATE:
         return create(o, &stripe);
-    case STRIPE_WRITE:
-        return write_frame(kept, o, &stripe, data);
     case STRIPE_CLOSE:
         return DEM_OK;
     case STRIPE_LINK:
@@ -159,10 +167,4 @@ dem_status rank_order_obey(void **kept, const void *what, const void *data)
     default:
         return hdf5_publish(o->path, o->other);
     }
-}
-
-/* On the disk is a whole file, whatever closing says. */
-void rank_order_forget(void **kept)
-{
-    (void)close_kept(kept);
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With R ranks stripe k of W is written by rank k R/W: ranks of one machine mostly have numbers one behind the other,
- * so that stripes are spread over machines. */
 #include "output/stripes.h"
 
 #include "base/numbered_file.h"
+#include "base/field_order.h"
 #include "base/rank_order.h"
 #include "base/status.h"
 #include "lattice/lattice_arrays.h"
+#include "output/frame_writer.h"
 #include "output/stripe_file.h"
 
 #include <dirent.h>
@@ -23,15 +23,6 @@ enum { SUFFIX = sizeof ".vtkhdf" - 1 };
 static int stem_of(const stripes *s)
 {
     return (int)strlen(s->path) - SUFFIX;
-}
-
-static dem_status print_path(char out[HDF5_PATH], const stripes *s, numbered_file file)
-{
-    char end[NUMBERED_FILE];
-    numbered_file_print(end, file);
-    const int n = snprintf(out, HDF5_PATH, "%.*s%s", stem_of(s), s->path, end);
-    CHECK(n > 0 && n < HDF5_PATH, DEM_ERROR_IO, "%s: the name of a stripe is too long", s->path);
-    return DEM_OK;
 }
 
 /* Stripe k from 0 on, under its final name. */
@@ -98,13 +89,11 @@ static dem_status prepare(orders *o, const stripes *s, const frames *f, dem_inde
     for (int k = 0; k < s->n; k++) {
         stripe_order *what = &o->contents[k];
         what->kind = kind;
-        what->stays_open = s->stay_open;
         what->whole = *f;
-        what->whole.scratch = NULL;
         what->stripe = k;
         what->run = s->run;
-        TRY(print_path(what->path, s, name_at_first(s, number, k)));
-        o->list[k] = (rank_order){(int)((long long)k * ranks / s->n), sizeof *what, what, 0, NULL};
+        TRY(stripe_file_path(what->path, s->path, name_at_first(s, number, k)));
+        o->list[k] = (rank_order){field_writer(ranks, s->n, k), sizeof *what, what};
     }
     return DEM_OK;
 }
@@ -129,9 +118,9 @@ static dem_status check_names(const stripes *s, dem_index number)
 {
     char path[HDF5_PATH];
     for (int k = 0; k < s->n; k++) {
-        TRY(print_path(path, s, name_of(s, number, k)));
+        TRY(stripe_file_path(path, s->path, name_of(s, number, k)));
         TRY(check_path(path, s->run));
-        TRY(print_path(path, s, name_at_first(s, number, k)));
+        TRY(stripe_file_path(path, s->path, name_at_first(s, number, k)));
         TRY(check_path(path, s->run));
     }
     return DEM_OK;
@@ -155,7 +144,7 @@ dem_status stripes_link(const stripes *s, const frames *f, dem_index number, hsi
     dem_status status = prepare(&o, s, f, 0, STRIPE_LINK);
     for (int k = 0; k < s->n && status == DEM_OK; k++) {
         o.contents[k].frames.count = n;
-        status = print_path(o.contents[k].other, s, name_of(s, number, k));
+        status = stripe_file_path(o.contents[k].other, s->path, name_of(s, number, k));
     }
     return give(&o, s, status);
 }
@@ -185,76 +174,19 @@ dem_status stripes_publish(const stripes *s, const frames *f, dem_index number)
     if (s->n == 0) return DEM_OK;
     dem_status status = prepare(&o, s, f, number, STRIPE_PUBLISH);
     for (int k = 0; k < s->n && status == DEM_OK; k++)
-        status = print_path(o.contents[k].other, s, name_of(s, number, k));
+        status = stripe_file_path(o.contents[k].other, s->path, name_of(s, number, k));
     return give(&o, s, status);
 }
 
 /* ---- frames ---- */
 
-/* A frame of no more bytes is gathered and goes to the writers at once, as orders take longer than its data; of a
- * larger one each array goes when it is there. */
-enum { GATHERED = 1 << 22 };
-
-typedef struct appending {
-    const stripes *stripes;
-    const frames *frames;
-    dem_index number;
-    char *gathered; /* NULL: arrays go one by one */
-    size_t *at;     /* [n + 1] where the data of each stripe begin */
-} appending;
-
-/* Has arrays `first` to `end` - 1 written. */
-static dem_status write_arrays(const appending *a, int first, int end, const char *data)
-{
-    const stripes *s = a->stripes;
-    orders o;
-    dem_status status = prepare(&o, s, a->frames, a->number, STRIPE_WRITE);
-    for (int k = 0; k < s->n && status == DEM_OK; k++) {
-        o.contents[k].first = first;
-        o.contents[k].end = end;
-        o.contents[k].frames.first = (hsize_t)a->frames->n;
-        o.list[k].n_data = a->at[k + 1] - a->at[k];
-        o.list[k].data = data + a->at[k];
-    }
-    return give(&o, s, status);
-}
-
-static dem_status take_array(void *context, int array, const void *data)
-{
-    const appending *a = context;
-    for (int k = 0; k < a->stripes->n && a->gathered != NULL; k++) {
-        const size_t first = frame_stripes_first_byte(a->frames, array, k);
-        const size_t bytes = frame_stripes_first_byte(a->frames, array, k + 1) - first;
-        char *to = a->gathered + a->at[k] + frame_stripes_bytes(a->frames, k, 0, array);
-        memcpy(to, (const char *)data + first, bytes);
-    }
-    if (a->gathered != NULL) return DEM_OK;
-    for (int k = 0; k <= a->stripes->n; k++) a->at[k] = frame_stripes_first_byte(a->frames, array, k);
-    return write_arrays(a, array, array + 1, data);
-}
-
-static dem_status append(appending *a, const dem_simulation *simulation)
-{
-    const int n = a->stripes->n;
-    a->at = calloc((size_t)n + 1, sizeof *a->at);
-    CHECK_MEMORY(a->at);
-    for (int k = 0; k < n; k++) a->at[k + 1] = a->at[k] + frame_stripes_bytes(a->frames, k, 0, FRAME_ARRAYS);
-    if (a->at[n] <= GATHERED) {
-        a->gathered = calloc(1, a->at[n]);
-        CHECK_MEMORY(a->gathered);
-    }
-    TRY(frame_arrays_hand_out(a->frames, simulation, take_array, a));
-    return a->gathered != NULL ? write_arrays(a, 0, FRAME_ARRAYS, a->gathered) : DEM_OK;
-}
-
 dem_status stripes_append(const stripes *s, const frames *f, dem_index number, const dem_simulation *simulation)
 {
-    appending a = {.stripes = s, .frames = f, .number = number};
+    stripe_name name = {.number = number, .n = s->n};
     if (s->n == 0) return DEM_OK;
-    const dem_status status = append(&a, simulation);
-    free(a.gathered);
-    free(a.at);
-    return status;
+    const int n = snprintf(name.path, sizeof name.path, "%s", s->path);
+    CHECK(n >= 0 && (size_t)n < sizeof name.path, DEM_ERROR_IO, "%s: the name is too long", s->path);
+    return frame_writer_append_stripes(f, &name, s->stay_open, simulation);
 }
 
 dem_status stripes_map(const stripes *s, const frames *f, dem_index number, const hdf5_file *file,

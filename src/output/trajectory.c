@@ -53,7 +53,7 @@ static dem_status open_part(dem_trajectory *t, hsize_t bytes)
 {
     if (t->open) return hdf5_resume(&t->part, bytes);
     TRY(hdf5_open_write(&t->part, part_of(t), bytes));
-    t->part.helpers.team = t->rows.team;
+    t->part.team = t->rows.team;
     if (t->rows.options.stays_open) hdf5_keep(&t->part);
     return DEM_OK;
 }
@@ -101,10 +101,7 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
     /* While the part is closed, for the file of one stripe may be this process's. */
     TRY(trajectory_parts_append(&t->segments, &t->rows, simulation));
     TRY(open_part(t, trajectory_rows_flush_bytes(&t->rows) + of_fragments + frames_bytes(f)));
-    t->part.helpers.simulation = simulation;
-    const dem_status status = append_frame(t, &t->part, simulation);
-    t->part.helpers.simulation = NULL; /* it may end before the trajectory does */
-    TRY(leave_part(t, status));
+    TRY(leave_part(t, append_frame(t, &t->part, simulation)));
     f->n++;
     f->last = now.t;
     return DEM_OK;

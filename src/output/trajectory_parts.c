@@ -142,7 +142,7 @@ static dem_status make(const segments *s, const trajectory_rows *r, extract e)
     hdf5_file file;
     const hsize_t bytes = trajectory_rows_create_bytes(r) + (e.source != NULL ? bytes_of(e.source) : 0);
     dem_status status = hdf5_open_new(&file, e.path, bytes);
-    file.helpers.team = r->team;
+    file.team = r->team;
     if (status == DEM_OK) status = hdf5_close(&file, write_extract(s, r, &file, &e));
     /* After closing, as the next reader will see it. */
     if (status == DEM_OK && e.source != NULL) status = verify(s, r, e.path);
@@ -448,7 +448,7 @@ static dem_status make_whole(segments *s, const trajectory_rows *r)
     TRY(make_stripes(s, r));
     for (dem_index k = 0; k <= s->n; k++) bytes += bytes_of(source_of(s, k));
     TRY(hdf5_open_new(&file, s->names[PARTS_HEAD], bytes));
-    file.helpers.team = r->team;
+    file.team = r->team;
     return hdf5_close(&file, write_whole(s, r, &file));
 }
 
@@ -460,7 +460,7 @@ static dem_status add_peaks(segments *s, const trajectory_rows *r)
     s->soiled = true;
     TRY(hdf5_open_write(&file, s->names[PARTS_PART],
                         trajectory_rows_peaks_bytes(r, trajectory_rows_total(r, ROWS_FRAMES))));
-    file.helpers.team = r->team;
+    file.team = r->team;
     return hdf5_close(&file, trajectory_rows_write_peaks(r, &file, trajectory_rows_total(r, ROWS_FRAMES)));
 }
 

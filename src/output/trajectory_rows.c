@@ -68,7 +68,7 @@ dem_status trajectory_rows_init(trajectory_rows *out, const dem_simulation *simu
     /* Events and breaks count as kinds even if they are not wanted: their tables then have no columns. */
     out->n_kinds = ROWS_PROBES + (int)options->n_probes;
     create_team(out, simulation);
-    TRY(frames_init(&out->frames, out->model, options));
+    frames_init(&out->frames, out->model, options);
     if (!has_frames(out)) out->frames.n_stripes = 0;
     out->stripes = (stripes){out->frames.n_stripes, simulation, NULL, options->stays_open, out->lattice, 0};
     if (out->stripes.n > 0) TRY(stripes_run(&out->stripes.run, &out->lattice));
@@ -90,7 +90,6 @@ void trajectory_rows_free(trajectory_rows *r)
     table_free(&r->breaks);
     for (dem_index k = 0; r->probes != NULL && k < r->options.n_probes; k++) probe_free(&r->probes[k]);
     free(r->probes);
-    frames_free(&r->frames);
     fragment_table_free(&r->fragments);
     provenance_free(&r->provenance);
 }

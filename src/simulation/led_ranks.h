@@ -4,7 +4,6 @@
 #ifndef DEM_SIMULATION_LED_RANKS_H
 #define DEM_SIMULATION_LED_RANKS_H
 
-#include "base/section.h"
 #include "contact/near_contact.h"
 #include "domain/balance.h"
 #include "simulation/private.h"
@@ -32,8 +31,7 @@ struct led_run {
     const slab_maker *maker; /* of slabs. On rank 0: NULL */
     dem_simulation *part;    /* NULL: there is none */
     shared_peaks peaks;      /* of the part, and on rank 0 whose they are */
-    section_streams streams; /* for sections of files */
-    void *kept;              /* for orders (base/rank_order.h) */
+    void *kept;              /* for orders (base/rank_order.h, base/field_order.h) */
     bool is_observed;
     frame_relay frames[OBSERVERS_MOST];
     double busy, entered;       /* s of work since nodes were shared out, and in all at led_ranks_enter() */

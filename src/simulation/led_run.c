@@ -14,9 +14,9 @@
 #include "simulation/leader_observers.h"
 #include "simulation/leader_peaks.h"
 #include "simulation/rank_shares.h"
+#include "simulation/shared_field.h"
 #include "simulation/shared_orders.h"
 #include "simulation/shared_problem.h"
-#include "simulation/shared_sections.h"
 #include "simulation/shared_use.h"
 #include "simulation/step_parts.h"
 
@@ -32,7 +32,6 @@ static void drop_model(led_run *l)
 static void drop(led_run *l)
 {
     shared_peaks_drop(&l->peaks);
-    section_streams_free(&l->streams);
     rank_order_forget(&l->kept);
     dem_simulation_destroy(l->part);
     l->part = NULL;
@@ -191,10 +190,14 @@ static dem_status gather(const led_run *l)
     return DEM_OK;
 }
 
-static dem_status pack_sections(led_run *l, section *sections, int n)
+/* What an order is about is known to rank 0. */
+static dem_status obey(led_run *l, const rank_call *call, const field_order *given)
 {
-    team *t = l->part != NULL ? l->part->team : NULL;
-    return shared_sections_pack(&l->ranks, &l->streams, t, sections, n);
+    field_order o = {.field = (field_kind)call->number, .n_stripes = call->n_stripes, .size = call->size};
+    if (given != NULL) o = *given;
+    o.kept = &l->kept;
+    o.team = l->part->team;
+    return shared_field_obey(l->part, &o);
 }
 
 /* The largest struct that an answer fills, and its size first. */
@@ -263,8 +266,8 @@ static void take_part(led_run *l, const rank_call *o)
     case RANK_CALL_PEAKS_LOOK:
         (void)shared_peaks_answer(&l->peaks, l->part, o);
         break;
-    case RANK_CALL_PACK:
-        (void)pack_sections(l, NULL, (int)o->number);
+    case RANK_CALL_ORDER:
+        (void)obey(l, o, NULL);
         break;
     case RANK_CALL_OBEY:
         (void)shared_orders_pass(&l->ranks, &l->kept, NULL, 0);
@@ -346,14 +349,14 @@ void led_run_gather(dem_simulation *whole)
     led_ranks_leave(l);
 }
 
-dem_status section_pack_by_ranks(const dem_simulation *simulation, section *sections, int n, bool *by_ranks)
+dem_status led_run_order(const dem_simulation *whole, const field_order *o)
 {
-    led_run *l = simulation->leads;
-    *by_ranks = l != NULL;
-    if (l == NULL) return DEM_OK;
-    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_PACK, .number = n});
+    led_run *l = whole->leads;
+    const rank_call call = {
+        .kind = RANK_CALL_ORDER, .number = (dem_index)o->field, .n_stripes = o->n_stripes, .size = o->size};
+    (void)rank_call_send(&l->ranks, call);
     led_ranks_enter(l);
-    const dem_status status = pack_sections(l, sections, n);
+    const dem_status status = obey(l, &call, o);
     led_ranks_leave(l);
     return status;
 }

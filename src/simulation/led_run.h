@@ -6,8 +6,9 @@
 #ifndef DEM_SIMULATION_LED_RUN_H
 #define DEM_SIMULATION_LED_RUN_H
 
-#include "simulation/rank_call.h"
+#include "base/field_order.h"
 #include "simulation/private.h"
+#include "simulation/rank_call.h"
 #include "simulation/shared_slabs.h"
 
 /** Makes a simulation that has not been advanced the leader of one that all ranks have a part of. On rank 0, while the
@@ -47,6 +48,9 @@ dem_status led_run_advance(dem_simulation *whole, double t_end);
 
 /** Asks all parts, and writes what they answer. */
 dem_status led_run_ask(const dem_simulation *whole, rank_call_kind what, dem_index number, void *out);
+
+/** Has an order carried out by all parts. */
+dem_status led_run_order(const dem_simulation *whole, const field_order *o);
 
 /** Rank 0's part, which every contact and event is in, as it is in every other one: to be asked without a call. */
 const dem_simulation *led_run_part(const led_run *l);

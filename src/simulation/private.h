@@ -129,6 +129,7 @@ struct dem_simulation {
     dem_index n_inside, n_reported; /* events inside the step in hand; those of them that observers know */
     dem_index n_broken, n_known;    /* breaks, likewise */
     observers observers;
+    void *kept; /* for orders of writers of files (base/field_order.h), where the simulation leads no run */
     run_unseen unseen;
 };
 

@@ -263,7 +263,7 @@ dem_status dem_simulation_contact(const dem_simulation *s, dem_index contact, de
 }
 
 /* Of a simulation that leads a run.  \param out  NULL: not wanted */
-static dem_status ask_field(const dem_simulation *s, shared_field_kind field, void *out)
+static dem_status ask_field(const dem_simulation *s, field_kind field, void *out)
 {
     return out != NULL ? led_run_ask(s, RANK_CALL_FIELD, (dem_index)field, out) : DEM_OK;
 }
@@ -286,7 +286,7 @@ dem_status dem_simulation_strains(const dem_simulation *s, double *strain)
 {
     const element_state *elements;
     TRY(check_pointers("dem_simulation_strains", s, strain));
-    if (s->leads != NULL) return ask_field(s, SHARED_FIELD_STRAINS, strain);
+    if (s->leads != NULL) return ask_field(s, FIELD_STRAINS, strain);
     TRY(find_elements(s, &elements));
     const double *x = all_seen_of(s);
     if (s->measures->has_stress)
@@ -300,7 +300,7 @@ dem_status dem_simulation_forces(const dem_simulation *s, double *force)
 {
     const element_state *elements;
     TRY(check_pointers("dem_simulation_forces", s, force));
-    if (s->leads != NULL) return ask_field(s, SHARED_FIELD_FORCES, force);
+    if (s->leads != NULL) return ask_field(s, FIELD_FORCES, force);
     TRY(find_elements(s, &elements));
     const double *x = all_seen_of(s);
     springs_forces(&s->model->lattice, element_state_springs(elements), x, force);
@@ -409,7 +409,7 @@ dem_status dem_simulation_stress(const dem_simulation *s, double *stress)
 {
     const element_state *elements;
     TRY(check_pointers("dem_simulation_stress", s, stress));
-    if (s->leads != NULL) return ask_field(s, SHARED_FIELD_STRESS, stress);
+    if (s->leads != NULL) return ask_field(s, FIELD_STRESS, stress);
     TRY(find_elements(s, &elements));
     TRY(prepare_stress(s));
     const double *x = all_seen_of(s);

@@ -72,7 +72,7 @@ dem_status rank_call_answer(const dem_simulation *part, const rank_call *what, v
         return dem_simulation_force_at(part, what->number, out);
     case RANK_CALL_FIELD:
         CHECK(part != NULL, DEM_ERROR_ARGUMENT, "this rank has no part of the simulation");
-        return shared_field_gather(part, (shared_field_kind)what->number, out);
+        return shared_field_gather(part, (field_kind)what->number, out);
     case RANK_CALL_SHARES:
         rank_shares_measure(out, part);
         return DEM_OK;

@@ -26,7 +26,8 @@ typedef enum rank_call_kind {
     RANK_CALL_BOUNDARY,
     RANK_CALL_STRESS_AT,
     RANK_CALL_FORCE_AT,
-    RANK_CALL_FIELD,         /* a shared_field_kind as `number` */
+    RANK_CALL_FIELD,         /* a field_kind as `number`, */
+    RANK_CALL_ORDER,         /* or an order about one, for so many stripes, of so many bytes (base/field_order.h) */
     RANK_CALL_PEAKS_TAKE,    /* of this number, from rank 0 (simulation/shared_peaks.h); */
     RANK_CALL_PEAKS_NODES,   /* the other way round, those of nodes */
     RANK_CALL_PEAKS_SPRINGS, /* or of springs; */
@@ -35,7 +36,6 @@ typedef enum rank_call_kind {
     RANK_CALL_PEAKS_KEPT_SPRINGS,
     RANK_CALL_PEAKS_LOOK, /* or look for larger ones */
     RANK_CALL_SHARES,     /* of the model (simulation/rank_shares.h) */
-    RANK_CALL_PACK,       /* so many sections of a file */
     RANK_CALL_OBEY,       /* orders of rank 0 (simulation/shared_orders.h) */
     RANK_CALL_DROP,       /* the simulation */
     RANK_CALL_END         /* no more calls; `number` is for the program */
@@ -51,6 +51,8 @@ typedef struct rank_call {
     rank_call_kind kind;
     double t; /* s */
     dem_index number;
+    int n_stripes;
+    size_t size;
     double intervals[OBSERVERS_MOST]; /* s */
 } rank_call;
 

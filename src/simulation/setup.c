@@ -10,6 +10,7 @@
 #include "base/aligned.h"
 #include "base/checkpoint_entries.h"
 #include "base/freed_memory.h"
+#include "base/rank_order.h"
 #include "base/reduce.h"
 #include "base/status.h"
 #include "contact/contact_constraints.h"
@@ -286,6 +287,7 @@ void dem_simulation_destroy(dem_simulation *s)
 {
     if (s == NULL) return;
     led_run_destroy(s->leads);
+    rank_order_forget(&s->kept);
     step_parts_destroy(s);
     breaking_destroy(s);
     boundary_conditions_free(&s->boundaries);

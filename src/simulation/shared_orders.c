@@ -1,26 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rank 0 says how long the order of each rank is, 0: it has none, and then sends what it is about and its data, from
- * where they are. */
+/* Rank 0 says how long the order of each rank is, 0: it has none, and then sends what it is about. */
 #include "simulation/shared_orders.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 
 #include "base/reduce.h"
 #include "base/status.h"
 
-/* What is sent of an order. */
-enum { SIZES, WHAT, DATA, PIECES };
-
-typedef struct sizes {
-    size_t what, data;
-} sizes;
-
 typedef struct passing {
     const ranks *ranks;
-    sizes *sizes;                  /* [ranks] on rank 0, else [1] of this one */
+    size_t *sizes;                 /* [ranks] on rank 0, else [1] of this one */
     const rank_order **orders;     /* [ranks] on rank 0, NULL: none */
     ranks_message *full, *nothing; /* [ranks] */
-    void *what, *data;             /* on other ranks */
+    void *what;                    /* on other ranks */
     void **kept;
 } passing;
 
@@ -43,7 +36,6 @@ static void release(const passing *p)
     free(p->full);
     free(p->nothing);
     free(p->what);
-    free(p->data);
 }
 
 /* By rank. */
@@ -51,29 +43,27 @@ static void sort(const passing *p, const rank_order *orders, int n)
 {
     for (int k = 0; k < n && p->ranks->rank == 0; k++) {
         p->orders[orders[k].rank] = &orders[k];
-        p->sizes[orders[k].rank] = (sizes){orders[k].size, orders[k].n_data};
+        p->sizes[orders[k].rank] = orders[k].size;
     }
 }
 
 /* A message is only read where it is sent. */
-static ranks_message piece_of(const passing *p, int piece, int other)
+static ranks_message message_of(const passing *p, bool is_size, int other)
 {
     const bool is_first = p->ranks->rank == 0;
-    sizes *s = &p->sizes[is_first ? other : 0];
-    if (piece == SIZES) return (ranks_message){other, sizeof *s, s};
+    size_t *size = &p->sizes[is_first ? other : 0];
     const rank_order *o = p->orders[is_first ? other : 0];
-    const void *what = o != NULL ? o->what : p->what, *data = o != NULL ? o->data : p->data;
-    if (piece == WHAT) return (ranks_message){other, s->what, (void *)what};
-    return (ranks_message){other, s->data, (void *)data};
+    if (is_size) return (ranks_message){other, sizeof *size, size};
+    return (ranks_message){other, *size, o != NULL ? (void *)(uintptr_t)o->what : p->what};
 }
 
-static void send(const passing *p, int piece)
+static void send(const passing *p, bool is_size)
 {
     const ranks *r = p->ranks;
     const int n = r->rank == 0 ? r->size - 1 : 1;
     for (int k = 0; k < n; k++) {
         const int other = r->rank == 0 ? k + 1 : 0;
-        p->full[k] = piece_of(p, piece, other);
+        p->full[k] = message_of(p, is_size, other);
         p->nothing[k] = (ranks_message){other, 0, NULL};
     }
     r->exchange(r->self, n, r->rank == 0 ? p->full : p->nothing, r->rank == 0 ? p->nothing : p->full);
@@ -83,25 +73,23 @@ static void send(const passing *p, int piece)
 static dem_status make_room(passing *p)
 {
     if (p->ranks->rank == 0) return DEM_OK;
-    p->what = malloc(p->sizes->what + 1);
-    p->data = malloc(p->sizes->data + 1);
-    CHECK(p->what && p->data, DEM_ERROR_MEMORY, "out of memory for %zu bytes of rank 0", p->sizes->data);
+    p->what = malloc(*p->sizes + 1);
+    CHECK(p->what, DEM_ERROR_MEMORY, "out of memory for an order of %zu bytes", *p->sizes);
     return DEM_OK;
 }
 
 static dem_status obey(const passing *p)
 {
     const rank_order *own = p->orders[0];
-    if (p->ranks->rank == 0) return own != NULL ? rank_order_obey(p->kept, own->what, own->data) : DEM_OK;
-    return p->sizes->what > 0 ? rank_order_obey(p->kept, p->what, p->data) : DEM_OK;
+    if (p->ranks->rank == 0) return own != NULL ? rank_order_obey(p->kept, own->what) : DEM_OK;
+    return *p->sizes > 0 ? rank_order_obey(p->kept, p->what) : DEM_OK;
 }
 
 static dem_status pass(passing *p)
 {
-    send(p, SIZES);
+    send(p, true);
     TRY(reduce_status(p->ranks, make_room(p), 0.0));
-    send(p, WHAT);
-    send(p, DATA);
+    send(p, false);
     return reduce_status(p->ranks, obey(p), 0.0);
 }
 

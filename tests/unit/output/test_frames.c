@@ -51,7 +51,7 @@ static reader *shoot_breaking(void (*open)(support_run *), uint32_t fields, int 
     options.double_precision = is_double;
     open(&f->run);
     stored_open(&f->stored);
-    assert_ok(frames_init(&f->frames, f->run.model, &options));
+    frames_init(&f->frames, f->run.model, &options);
     assert_ok(frames_create(&f->frames, &f->stored.file, &(lattice_source){dem_model_lattice(f->run.model), NULL}));
     for (f->frames.n = 0; f->frames.n < 2; f->frames.n++) {
         (void)support_at(&f->run, 1e-4 * (double)f->frames.n);
@@ -75,7 +75,6 @@ static reader *shoot(uint32_t fields, int is_double)
 
 static void put_away(reader *f)
 {
-    frames_free(&f->frames);
     stored_close(&f->stored);
     support_close(&f->run);
     free(f);
@@ -336,12 +335,13 @@ TEST(a_constant_is_in_all_frames)
     const frames_constant constants[2] = {{"PointData", "peak", HDF5_F64, 2}, {"CellData", "time", HDF5_F32, 1}};
     reader *f = shoot(0, 0);
     const hsize_t n = (hsize_t)f->frames.n_nodes, m = (hsize_t)f->frames.n_springs;
-    for (hsize_t k = 0; k < 2 * n || k < m; k++) f->frames.scratch[k] = (double)k;
+    double value[STORED_VALUES];
+    for (hsize_t k = 0; k < 2 * n || k < m; k++) value[k] = (double)k;
     for (int c = 0; c < 2; c++) {
         char name[FRAMES_NAME];
         hdf5_rows rows;
         assert_ok(frames_create_constant(&f->frames, &f->stored.file, &constants[c], &rows, name));
-        assert_ok(hdf5_append(&f->stored.file, &rows, 0, c == 0 ? n : m, f->frames.scratch));
+        assert_ok(hdf5_append(&f->stored.file, &rows, 0, c == 0 ? n : m, value));
     }
     assert_close(stored_values(&f->stored, "/VTKHDF/PointData/peak", n, 2, 8)[2 * n - 1], (double)(2 * n - 1), 0.0);
     assert_close(stored_values(&f->stored, "/VTKHDF/CellData/time", m, 1, 4)[m - 1], (double)(m - 1), 0.0);
