@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "ask.h"
-#include "whole_nodes.h"
 
 /* ---- motion of all bodies ---- */
 
@@ -136,12 +135,33 @@ static void follow_normal(rebound *r, const dem_simulation *simulation, const de
     r->obstacle = most.obstacle;
 }
 
+/* Angular momentum of all bodies as one over their moment of inertia, rad/s, both about their centre of mass, whose
+ * velocity is v: those of each about its own centre, and of its mass there. */
+static double spin_of_all(const dem_simulation *simulation, const double v[2])
+{
+    const dem_index n = ask_sizes(dem_simulation_model(simulation)).n_bodies;
+    double mass = 0.0, centre[2] = {0.0, 0.0}, angular = 0.0, inertia = 0.0;
+    for (dem_index b = 0; b < n; b++) {
+        const dem_body_motion body = ask_body(simulation, b);
+        mass += body.mass;
+        for (int c = 0; c < 2; c++) centre[c] += body.mass * body.centre[c];
+    }
+    for (dem_index b = 0; b < n; b++) {
+        const dem_body_motion body = ask_body(simulation, b);
+        const double x = body.centre[0] - centre[0] / mass, y = body.centre[1] - centre[1] / mass;
+        angular +=
+            body.angular_momentum[2] + body.mass * (x * (body.velocity[1] - v[1]) - y * (body.velocity[0] - v[0]));
+        inertia += ask_inertia(simulation, b) + body.mass * (x * x + y * y);
+    }
+    return inertia > 0.0 ? angular / inertia : 0.0;
+}
+
 static void follow_velocity(rebound *r, const dem_simulation *simulation, const dem_progress *now,
                             const mean_motion *mean)
 {
     const dem_options options = ask_options(simulation);
     const double since = now->t - r->last; /* for which the bodies have been in free flight again */
-    if (now->n_contacts == 0) r->spin = whole_nodes_spin(simulation, mean->velocity);
+    if (now->n_contacts == 0) r->spin = spin_of_all(simulation, mean->velocity);
     for (int c = 0; c < 2; c++) r->velocity[c] = mean->velocity[c] - options.gravity[c] * since;
     r->speed = mean->rising + hypot(options.gravity[0], options.gravity[1]) * since;
 }

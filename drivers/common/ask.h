@@ -90,6 +90,13 @@ static inline dem_body_motion ask_body(const dem_simulation *simulation, dem_ind
     ASK(dem_body_motion, dem_simulation_body(simulation, body, &out));
 }
 
+static inline double ask_inertia(const dem_simulation *simulation, dem_index body)
+{
+    double inertia = 0.0;
+    (void)dem_simulation_inertia(simulation, body, &inertia);
+    return inertia;
+}
+
 static inline dem_obstacle_load ask_obstacle(const dem_simulation *simulation, dem_index obstacle)
 {
     ASK(dem_obstacle_load, dem_simulation_obstacle(simulation, obstacle, &out));

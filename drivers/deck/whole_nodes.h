@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the log asks of single nodes and springs, as of those that were stressed most, and of all nodes where bodies
- * leave an obstacle. For nothing else dem_batch looks at the arrays of a model's lattice or of a state. */
+/* What the log asks of single nodes and springs, as of those that were stressed most. For nothing else dem_batch looks
+ * at the arrays of a model's lattice. */
 #ifndef DEM_WHOLE_NODES_H
 #define DEM_WHOLE_NODES_H
 
@@ -27,9 +27,5 @@ int whole_nodes_rim(double ends[WHOLE_NODES_SIDES][2], const dem_model *model, d
 
 /* Whether a node of its body lies farther along a unit vector than this one does, by more than `slack`, m. */
 bool whole_nodes_any_ahead(const dem_model *model, dem_index node, const double along[2], double slack);
-
-/* Angular momentum of all bodies as one over their moment of inertia, rad/s, both about their centre of mass, whose
- * velocity is v. */
-double whole_nodes_spin(const dem_simulation *simulation, const double v[2]);
 
 #endif

@@ -519,6 +519,12 @@ DEM_API dem_status dem_simulation_counts(const dem_simulation *simulation, dem_c
 /** \param body  0 <= body < n_bodies */
 DEM_API dem_status dem_simulation_body(const dem_simulation *simulation, dem_index body, dem_body_motion *out);
 
+/** Moment of inertia of a body about its centre of mass, the sum of m |x - c|^2 over its nodes: its angular momentum
+ *  over this is its mean angular velocity.
+ *  \param body          0 <= body < n_bodies
+ *  \param[out] inertia  kg m^2 */
+DEM_API dem_status dem_simulation_inertia(const dem_simulation *simulation, dem_index body, double *inertia);
+
 /** \param obstacle  0 <= obstacle < n_obstacles */
 DEM_API dem_status dem_simulation_obstacle(const dem_simulation *simulation, dem_index obstacle,
                                            dem_obstacle_load *out);

@@ -1529,6 +1529,12 @@ FUNCTIONS: dict[str, tuple[Any, list[Any], str]] = {  # result, arguments, text
         """dem_simulation_body(simulation, body, out)
 
         body 0 <= body < n_bodies"""),
+    "dem_simulation_inertia": (c_int, [POINTER(dem_simulation), c_int64, POINTER(c_double)],
+        """dem_simulation_inertia(simulation, body, inertia)
+        Moment of inertia of a body about its centre of mass, the sum of m |x - c|^2 over its nodes: its angular
+        momentum over this is its mean angular velocity.
+        body 0 <= body < n_bodies
+        inertia kg m^2"""),
     "dem_simulation_obstacle": (c_int, [POINTER(dem_simulation), c_int64, POINTER(dem_obstacle_load)],
         """dem_simulation_obstacle(simulation, obstacle, out)
 

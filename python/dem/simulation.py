@@ -282,6 +282,12 @@ class Simulation:
         """Mean motion of a body."""
         return ask(library.dem_simulation_body, records.BodyMotion, self._c, number)
 
+    def inertia(self, number: int = 0) -> float:
+        """Moment of inertia of a body about its centre of mass, kg m^2."""
+        value = c_double()
+        check(library.dem_simulation_inertia(self._c, number, byref(value)))
+        return value.value
+
     def obstacle(self, number: int = 0) -> records.ObstacleLoad:
         """What an obstacle gives to the bodies, and where it is."""
         return ask(library.dem_simulation_obstacle, records.ObstacleLoad, self._c, number)

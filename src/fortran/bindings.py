@@ -16,7 +16,7 @@ NUMBERS = {
 
 # What C leaves open: how many of a thing a pointer is for. Structs are one unless they are here; other names are to be
 # in one of both. "function.argument" goes before "argument".
-ONE = {"out", "omega", "energy", "size", "n", "n_nodes", "n_springs", "n_pieces", "n_parts", "n_fragments", "n_obstacles", "n_frames", "first", "count",
+ONE = {"out", "omega", "energy", "inertia", "size", "n", "n_nodes", "n_springs", "n_pieces", "n_parts", "n_fragments", "n_obstacles", "n_frames", "first", "count",
        "obstacle", "by", "angle", "dem_shape_area.area"}
 MANY = {
     "obstacles": "*", "materials": "*", "laws": "*", "of": "*", "keep": "*", "piece": "*", "part": "*", "fragment": "*", "n_edges": "*",

@@ -947,6 +947,13 @@ module dem_c
       type(dem_body_motion), intent(inout) :: out
     end function
 
+    integer(dem_status) function dem_simulation_inertia(simulation, body, inertia) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      integer(dem_index), value :: body
+      real(c_double), intent(out) :: inertia
+    end function
+
     integer(dem_status) function dem_simulation_obstacle(simulation, obstacle, out) bind(c)
       import
       type(c_ptr), value :: simulation

@@ -17,14 +17,15 @@ typedef struct lattice_source {
 } lattice_source;
 
 /** Of the lattice of a model. Defined in model/lattice_source.c, as the next ones are: those who write files see no
- *  more of a model than its public headers. They are exported for dem_batch; no other program may call them. */
+ *  more of a model than its public headers. What is exported is for dem_batch; no other program may call it. */
 DEM_API lattice_source dem_private_lattice_source(const dem_model *model);
 
 /** Hands an array over, ROWS_CHUNK items at a time, so that nobody needs memory for all; nothing of one that the
  *  lattice does not have. On rank 0 where ranks have parts, while the others wait for what it asks of them.
  *  \param member  offset of the array's pointer in a dem_lattice
  *  \return DEM_ERROR_MEMORY, and the failure of `take`, which is not called again then */
-dem_status dem_private_lattice_visit(const lattice_source *from, size_t member, rows_taker *take, void *context);
+DEM_API dem_status dem_private_lattice_visit(const lattice_source *from, size_t member, rows_taker *take,
+                                             void *context);
 
 /** Whether there is such an array. */
 bool dem_private_lattice_has(const lattice_source *from, size_t member);
@@ -35,8 +36,8 @@ typedef struct source_array {
 } source_array;
 
 /** Gets all of an array. Close it, after a failure, too.  \return DEM_ERROR_MEMORY */
-DEM_API dem_status dem_private_lattice_open(source_array *out, const lattice_source *from, size_t member);
-DEM_API void dem_private_lattice_close(source_array *a);
+dem_status dem_private_lattice_open(source_array *out, const lattice_source *from, size_t member);
+void dem_private_lattice_close(source_array *a);
 
 /** Gets the items of n nodes, springs or triangles from an array that there is.
  *  \param list      [n] their numbers

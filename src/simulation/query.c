@@ -520,6 +520,16 @@ dem_status dem_simulation_body(const dem_simulation *s, dem_index body, dem_body
     return GIVE(dem_body_motion, out, &s->bodies[body]);
 }
 
+dem_status dem_simulation_inertia(const dem_simulation *s, dem_index body, double *inertia)
+{
+    TRY(check_pointers("dem_simulation_inertia", s, inertia));
+    if (s->leads != NULL) return led_run_ask(s, RANK_CALL_INERTIA, body, inertia);
+    TRY(status_check_number("body", body, s->model->n_bodies));
+    if (!s->measures->has_bodies) measure_bodies(s);
+    *inertia = diagnostics_inertia(s->model, seen_of(s), body, s->bodies[body].centre);
+    return DEM_OK;
+}
+
 /* An obstacle at rest keeps the zeros that the load has. */
 static void add_motion(const dem_simulation *s, dem_index obstacle, dem_obstacle_load *load)
 {

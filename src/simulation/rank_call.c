@@ -64,6 +64,8 @@ dem_status rank_call_answer(const dem_simulation *part, const rank_call *what, v
         return DEM_OK;
     case RANK_CALL_BODY:
         return dem_simulation_body(part, what->number, out);
+    case RANK_CALL_INERTIA:
+        return dem_simulation_inertia(part, what->number, out);
     case RANK_CALL_BOUNDARY:
         return dem_simulation_boundary(part, what->number, out);
     case RANK_CALL_STRESS_AT:

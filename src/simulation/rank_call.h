@@ -23,6 +23,7 @@ typedef enum rank_call_kind {
     RANK_CALL_FASTEST,
     RANK_CALL_RESIDUAL,
     RANK_CALL_BODY, /* of this number, as the next ones are */
+    RANK_CALL_INERTIA,
     RANK_CALL_BOUNDARY,
     RANK_CALL_STRESS_AT,
     RANK_CALL_FORCE_AT,

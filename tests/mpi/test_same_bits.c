@@ -13,6 +13,7 @@ typedef struct motion {
     dem_energy energy;
     dem_strain strain;
     dem_body_motion body;
+    double inertia;
     dem_boundary_load load;
 } motion;
 
@@ -43,6 +44,7 @@ static void look(run *r, const dem_simulation *s)
     m->load.struct_size = sizeof m->load;
     INSIST(dem_simulation_energy(s, &m->energy) == DEM_OK && dem_simulation_strain(s, &m->strain) == DEM_OK);
     INSIST(dem_simulation_body(s, 0, &m->body) == DEM_OK);
+    INSIST(dem_simulation_inertia(s, 0, &m->inertia) == DEM_OK);
     if (r->is_held) INSIST(dem_simulation_boundary(s, 0, &m->load) == DEM_OK);
     m->t = state.t;
     m->step = state.step;
@@ -96,6 +98,7 @@ static void compare(const run *ranks, const run *one, int rank)
         const motion *a = &ranks->seen[k], *b = &one->seen[k];
         INSIST(memcmp(&a->energy, &b->energy, sizeof a->energy) == 0);
         INSIST(memcmp(&a->strain, &b->strain, sizeof a->strain) == 0);
+        INSIST(a->inertia > 0.0 && a->inertia == b->inertia);
         INSIST(memcmp(&a->body, &b->body, sizeof a->body) == 0 && memcmp(&a->load, &b->load, sizeof a->load) == 0);
         INSIST(ranks->seen[k].t == one->seen[k].t && ranks->seen[k].step == one->seen[k].step);
         INSIST(rank != 0 || memcmp(ranks->seen[k].x, one->seen[k].x, size) == 0);

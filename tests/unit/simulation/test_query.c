@@ -331,6 +331,8 @@ static void look_at_all(const dem_simulation *s)
     assert_ok(dem_simulation_contact_pressures(s, pressure));
     (void)ask_counts(s);
     (void)ask_body(s, 0);
+    assert_ok(dem_simulation_inertia(s, 0, &force));
+    assert_int_equal(dem_simulation_inertia(s, 1, &force), DEM_ERROR_ARGUMENT);
     (void)ask_obstacle(s, 0);
     (void)ask_boundary(s, 0);
     double fastest = 0.0;

@@ -98,24 +98,3 @@ TEST(only_nodes_of_the_same_body_are_ahead)
     assert_false(whole_nodes_any_ahead(model, 5, up, 1e-9));
     assert_false(whole_nodes_any_ahead(model, 8, down, 1e-9));
 }
-
-/* Both blocks turn about the origin as one, at 3 rad/s. */
-TEST(the_spin_is_that_of_a_rotation_of_all_bodies)
-{
-    const double omega = 3.0;
-    double mass = 0.0, v[2] = {0.0, 0.0};
-    dem_options options = dem_options_default();
-    CLEANUP(dem_lattice_free) dem_lattice l = make_blocks();
-    l.velocity = malloc(2 * (size_t)l.n_nodes * sizeof *l.velocity);
-    assert_non_null(l.velocity);
-    for (dem_index i = 0; i < l.n_nodes; i++) {
-        l.velocity[2 * i] = -omega * l.x[2 * i + 1];
-        l.velocity[2 * i + 1] = omega * l.x[2 * i];
-        mass += l.mass[i];
-        for (int c = 0; c < 2; c++) v[c] += l.mass[i] * l.velocity[2 * i + c];
-    }
-    CLEANUP(free_model) dem_model *model = make_model(&l);
-    CLEANUP(free_simulation) dem_simulation *simulation;
-    assert_int_equal(dem_simulation_create(&simulation, model, &options), DEM_OK);
-    assert_close(whole_nodes_spin(simulation, (const double[2]){v[0] / mass, v[1] / mass}), omega, 1e-13 * omega);
-}
