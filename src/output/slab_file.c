@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A slab of the lattice of a file. Springs and triangles are looked at piece by piece, for those at own nodes, whose
- * other nodes are the rim; then the rows of what the slab has are read. Numbers of springs and triangles follow from
+ * other nodes are the rim; then the rows of what the slab has are read. Who reads several slabs keeps which nodes the
+ * pieces have, and looks through all of them but once. Numbers of springs and triangles follow from
  * their order only where that is the order of their lowest nodes (domain/slab_rows.h): a model of slabs would have
  * others than one of the whole, and other bits. */
+#include "output/slab_file.h"
+
 #include "base/grow.h"
 #include "base/sorted.h"
 #include "base/status.h"
 #include "lattice/lattice.h"
+#include "lattice/mesh_edges.h"
 #include "lattice/slab.h"
 #include "output/lattice_datasets.h"
 
@@ -27,7 +31,16 @@ typedef struct draft {
     numbers rim;                   /* nodes next to own ones, some more than once, until they are in order */
     numbers found[LATTICE_ITEMS];  /* what the slab has: numbers of nodes, springs and triangles, ascending */
     numbers corner[LATTICE_ITEMS]; /* nodes of its springs and triangles, in the whole */
+    numbers around;                /* corners of the triangles at the rim, three each */
+    dem_index *spans;              /* [1 + 2 pieces] how many pieces there are, and the nodes of each: see span_of() */
+    bool are_known;                /* spans have been found */
 } draft;
+
+/* What is asked for. */
+typedef struct asked {
+    dem_index begin, end; /* own nodes */
+    bool rim_boundary;    /* is wanted */
+} asked;
 
 static dem_status add(numbers *to, dem_index number)
 {
@@ -42,31 +55,55 @@ static bool is_own(const draft *d, dem_index number)
     return number >= d->slab.first_node && number < d->slab.first_node + d->slab.n_own;
 }
 
-/* ---- springs and triangles at own nodes ---- */
+/* ---- which nodes the pieces of a file have ---- */
+
+static dem_index count_pieces(const lattice_datasets *f, int a)
+{
+    hdf5_untrusted_rows piece = {0};
+    dem_index n = 0;
+    while (f->present[a] && lattice_datasets_next(f, a, &piece)) n++;
+    return n;
+}
+
+/* Of a piece of springs, or of triangles, which come behind: the lowest node of its first row, than which no node of
+ * it, and of pieces behind it, is lower, and its highest node. */
+static dem_index *span_of(const draft *d, dem_index piece)
+{
+    return d->spans + 1 + 2 * piece;
+}
+
+/* What an earlier look has left, if it is of such a file. */
+static dem_status open_spans(draft *d)
+{
+    const dem_index n = count_pieces(&d->file, LATTICE_ENDS) + count_pieces(&d->file, LATTICE_CORNERS);
+    d->are_known = d->spans != NULL && d->spans[0] == n;
+    if (d->are_known) return DEM_OK;
+    free(d->spans);
+    d->spans = lattice_zeros(1 + 2 * n, sizeof *d->spans);
+    CHECK_MEMORY(d->spans);
+    d->spans[0] = n;
+    return DEM_OK;
+}
+
+/* ---- springs and triangles at some nodes ---- */
 
 /* Those of a file that come one after the other. */
-typedef struct scan {
+typedef struct scan scan;
+struct scan {
     lattice_items of;
     int dataset, arity;
     const char *what;
+    dem_status (*look)(draft *d, const scan *s, dem_index k, const dem_index *corner); /* at number k */
+    dem_index begin, end;                                                              /* nodes that are looked for */
     dem_index lowest; /* node of the one before; -1: there is none */
-} scan;
+    dem_index piece;  /* that is looked at, see span_of() */
+};
 
-/* Checks the order of number k, and takes it if one of its nodes is own. */
-static dem_status take(draft *d, scan *s, dem_index k, const dem_index *corner)
+/* Takes number k if one of its nodes is own. */
+static dem_status take(draft *d, const scan *s, dem_index k, const dem_index *corner)
 {
-    dem_index lowest = corner[0];
     bool has_own = false;
-    for (int c = 0; c < s->arity; c++) {
-        lowest = corner[c] < lowest ? corner[c] : lowest;
-        has_own = has_own || is_own(d, corner[c]);
-    }
-    CHECK(lowest >= s->lowest, DEM_ERROR_MODEL,
-          "%s: %s: %s %lld has the lowest node %lld, the one before it %lld: slabs need them in the order of their "
-          "lowest nodes",
-          d->file.file.path, lattice_dataset_list[s->dataset].name, s->what, (long long)k, (long long)lowest,
-          (long long)s->lowest);
-    s->lowest = lowest;
+    for (int c = 0; c < s->arity; c++) has_own = has_own || is_own(d, corner[c]);
     if (has_own) TRY(add(&d->found[s->of], k));
     for (int c = 0; has_own && c < s->arity; c++) {
         TRY(add(&d->corner[s->of], corner[c]));
@@ -75,16 +112,42 @@ static dem_status take(draft *d, scan *s, dem_index k, const dem_index *corner)
     return DEM_OK;
 }
 
-static dem_status take_piece(draft *d, scan *s, const hdf5_untrusted_rows *piece, const dem_index *corner)
+/* Looks at number k, which is not to have a lower node than those before it. */
+static dem_status look_at(draft *d, scan *s, dem_index k, const dem_index *corner)
+{
+    dem_index *span = span_of(d, s->piece), lowest = corner[0];
+    for (int c = 0; c < s->arity; c++) {
+        lowest = corner[c] < lowest ? corner[c] : lowest;
+        if (!d->are_known && corner[c] > span[1]) span[1] = corner[c];
+    }
+    CHECK(lowest >= s->lowest, DEM_ERROR_MODEL,
+          "%s: %s: %s %lld has the lowest node %lld, the one before it %lld: slabs need them in the order of their "
+          "lowest nodes",
+          d->file.file.path, lattice_dataset_list[s->dataset].name, s->what, (long long)k, (long long)lowest,
+          (long long)s->lowest);
+    s->lowest = lowest;
+    return s->look(d, s, k, corner);
+}
+
+static dem_status look_at_piece(draft *d, scan *s, const hdf5_untrusted_rows *piece, const dem_index *corner)
 {
     const dem_index first = (dem_index)piece->first, n = (dem_index)piece->count;
     if (lattice_check_corners(s->what, s->arity, corner, first, n, d->slab.n_nodes) != DEM_OK)
         return lattice_datasets_refuse(&d->file);
-    for (dem_index k = 0; k < n; k++) TRY(take(d, s, first + k, corner + s->arity * k));
+    for (dem_index k = 0; k < n; k++) {
+        TRY(look_at(d, s, first + k, corner + s->arity * k));
+        if (!d->are_known && k == 0) span_of(d, s->piece)[0] = s->lowest;
+    }
     return DEM_OK;
 }
 
-/* Of all that the file has. */
+/* Whether a piece may have something at a node that is looked for. */
+static bool may_have(const draft *d, const scan *s)
+{
+    const dem_index *span = span_of(d, s->piece);
+    return !d->are_known || (span[0] < s->end && span[1] >= s->begin);
+}
+
 static dem_status look_through(draft *d, scan s)
 {
     const lattice_datasets *f = &d->file;
@@ -94,26 +157,102 @@ static dem_status look_through(draft *d, scan s)
     if (!f->present[s.dataset]) return DEM_OK;
     dem_index *corner = lattice_datasets_room(f, s.dataset);
     CHECK_MEMORY(corner);
-    while (status == DEM_OK && lattice_datasets_next(f, s.dataset, &piece)) {
+    for (; status == DEM_OK && lattice_datasets_next(f, s.dataset, &piece); s.piece++) {
+        if (!may_have(d, &s)) continue;
         status = hdf5_untrusted_read(&f->file, set->name, set->kind, piece, corner);
-        if (status == DEM_OK) status = take_piece(d, &s, &piece, corner);
+        if (status == DEM_OK) status = look_at_piece(d, &s, &piece, corner);
     }
     free(corner);
     return status;
 }
 
+static scan springs_of(const draft *d)
+{
+    return (scan){.of = LATTICE_SPRINGS,
+                  .dataset = LATTICE_ENDS,
+                  .arity = 2,
+                  .what = "spring",
+                  .look = take,
+                  .begin = d->slab.first_node,
+                  .end = d->slab.first_node + d->slab.n_own,
+                  .lowest = -1};
+}
+
+static scan triangles_of(const draft *d)
+{
+    scan s = springs_of(d);
+    s.of = LATTICE_TRIANGLES;
+    s.dataset = LATTICE_CORNERS;
+    s.arity = 3;
+    s.what = "triangle";
+    s.piece = count_pieces(&d->file, LATTICE_ENDS);
+    return s;
+}
+
+/* ---- the boundary ---- */
+
+static dem_status take_at_rim(draft *d, const scan *s, dem_index k, const dem_index *corner)
+{
+    bool is_at_rim = false;
+    (void)k;
+    for (int c = 0; c < s->arity; c++) is_at_rim = is_at_rim || sorted_find(d->rim.list, d->rim.n, corner[c]) >= 0;
+    for (int c = 0; is_at_rim && c < s->arity; c++) TRY(add(&d->around, corner[c]));
+    return DEM_OK;
+}
+
+/* Of all triangles at nodes of the rim, whose corners are these nodes, in order.
+ * \param flags  [n] room */
+static dem_status mark_rim(draft *d, const dem_index *node, dem_index n, unsigned char *flags)
+{
+    const numbers *rim = &d->rim, *corner = &d->around;
+    dem_lattice l = dem_lattice_empty();
+    for (dem_index k = 0; k < corner->n; k++) corner->list[k] = sorted_find(node, n, corner->list[k]);
+    l.n_nodes = n;
+    l.n_triangles = corner->n / 3;
+    l.triangles = corner->list;
+    TRY(mesh_edges_contact_flags(flags, &l));
+    for (dem_index k = 0; k < rim->n; k++) {
+        const dem_index i = sorted_find(node, n, rim->list[k]);
+        d->slab.rim_boundary[k] = i >= 0 && flags[i] != 0;
+    }
+    return DEM_OK;
+}
+
+/* Behind the list of the rim, and what is found of spans. */
+static dem_status find_rim_boundary(draft *d)
+{
+    const numbers *rim = &d->rim;
+    scan s = triangles_of(d);
+    s.look = take_at_rim;
+    s.begin = rim->n > 0 ? rim->list[0] : 0;
+    s.end = rim->n > 0 ? rim->list[rim->n - 1] + 1 : 0;
+    TRY(look_through(d, s));
+    const dem_index n = d->around.n;
+    dem_index *node = lattice_zeros(n, sizeof *node);
+    unsigned char *flags = lattice_zeros(n, 1);
+    d->slab.rim_boundary = lattice_zeros(rim->n, 1);
+    dem_status status = node != NULL && flags != NULL && d->slab.rim_boundary != NULL
+                            ? DEM_OK
+                            : status_fail(DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)n);
+    if (status == DEM_OK && n > 0) memcpy(node, d->around.list, (size_t)n * sizeof *node);
+    if (status == DEM_OK) status = mark_rim(d, node, sorted_make(node, n), flags);
+    free(node);
+    free(flags);
+    return status;
+}
+
 /* ---- nodes ---- */
 
-/* Of n nodes each part has n/n_parts, and the first ones have one more. */
-static dem_status place(draft *d, dem_index part, dem_index n_parts)
+static dem_status place(draft *d, const asked *a)
 {
-    const dem_index n = d->file.n[LATTICE_NODES], each = n / n_parts, more = n % n_parts;
-    CHECK(n_parts <= n, DEM_ERROR_MODEL, "%s: %lld nodes cannot be %lld slabs", d->file.file.path, (long long)n,
-          (long long)n_parts);
+    const dem_index n = d->file.n[LATTICE_NODES];
+    CHECK(a->begin >= 0 && a->begin <= a->end && a->end <= n, DEM_ERROR_MODEL,
+          "%s: has no nodes from %lld to %lld: there are %lld", d->file.file.path, (long long)a->begin,
+          (long long)a->end - 1, (long long)n);
     d->slab.n_nodes = n;
     d->slab.n_triangles = d->file.n[LATTICE_TRIANGLES];
-    d->slab.first_node = part * each + (part < more ? part : more);
-    d->slab.n_own = each + (part < more ? 1 : 0);
+    d->slab.first_node = a->begin;
+    d->slab.n_own = a->end - a->begin;
     return DEM_OK;
 }
 
@@ -170,14 +309,17 @@ static dem_status read_rows(draft *d)
     return lattice_datasets_flags(&d->file, &d->slab.lattice);
 }
 
-static dem_status read_slab(draft *d, dem_index part, dem_index n_parts)
+static dem_status read_slab(draft *d, const asked *a)
 {
-    const scan springs = {LATTICE_SPRINGS, LATTICE_ENDS, 2, "spring", -1};
-    const scan triangles = {LATTICE_TRIANGLES, LATTICE_CORNERS, 3, "triangle", -1};
-    TRY(place(d, part, n_parts));
+    TRY(place(d, a));
+    TRY(open_spans(d));
+    const scan springs = springs_of(d), triangles = triangles_of(d);
     TRY(look_through(d, springs));
     TRY(look_through(d, triangles));
+    d->are_known = true;
+    if (d->slab.n_own == 0) return DEM_OK;
     TRY(list_nodes(d));
+    if (a->rim_boundary) TRY(find_rim_boundary(d));
     TRY(finish_corners(d, &springs));
     TRY(finish_corners(d, &triangles));
     return read_rows(d);
@@ -190,10 +332,41 @@ static void close_draft(draft *d)
     dem_slab_free(&d->slab);
     lattice_datasets_free(&d->file);
     free(d->rim.list);
+    free(d->around.list);
     for (int of = 0; of < LATTICE_ITEMS; of++) {
         free(d->found[of].list);
         free(d->corner[of].list);
     }
+    if (!d->are_known) {
+        free(d->spans);
+        d->spans = NULL;
+    }
+}
+
+/* \param d  with the file, open, and what is known of spans: what is then stays there */
+static dem_status read_open(draft *d, dem_slab *out, const asked *a)
+{
+    const dem_status status = hdf5_close(&d->file.file, read_slab(d, a));
+    if (status == DEM_OK) {
+        slab_give(out, &d->slab);
+        d->slab = dem_slab_empty();
+    }
+    close_draft(d);
+    return status;
+}
+
+/* Of n nodes each part has n/n_parts, and the first ones have one more. */
+static asked part_of(dem_index n, dem_index part, dem_index n_parts)
+{
+    const dem_index each = n / n_parts, more = n % n_parts, begin = part * each + (part < more ? part : more);
+    return (asked){.begin = begin, .end = begin + each + (part < more ? 1 : 0)};
+}
+
+static dem_status check_parts(const draft *d, dem_index n_parts)
+{
+    CHECK(n_parts <= d->file.n[LATTICE_NODES], DEM_ERROR_MODEL, "%s: %lld nodes cannot be %lld slabs",
+          d->file.file.path, (long long)d->file.n[LATTICE_NODES], (long long)n_parts);
+    return DEM_OK;
 }
 
 dem_status dem_slab_read(dem_slab *out, const char *path, dem_index part, dem_index n_parts)
@@ -202,11 +375,19 @@ dem_status dem_slab_read(dem_slab *out, const char *path, dem_index part, dem_in
     TRY(slab_check_out(out, part, n_parts));
     CHECK(path != NULL, DEM_ERROR_ARGUMENT, "dem_slab_read: path is NULL");
     TRY(lattice_datasets_open(&d.file, path));
-    const dem_status status = hdf5_close(&d.file.file, read_slab(&d, part, n_parts));
-    if (status == DEM_OK) {
-        slab_give(out, &d.slab);
-        d.slab = dem_slab_empty();
-    }
-    close_draft(&d);
+    if (check_parts(&d, n_parts) != DEM_OK) return hdf5_close(&d.file.file, DEM_ERROR_MODEL);
+    const asked a = part_of(d.file.n[LATTICE_NODES], part, n_parts);
+    const dem_status status = read_open(&d, out, &a);
+    free(d.spans);
+    return status;
+}
+
+dem_status dem_private_slab_of_file(dem_slab *out, const char *path, dem_index **spans, dem_index begin, dem_index end)
+{
+    draft d = {.slab = dem_slab_empty(), .spans = *spans};
+    TRY(slab_check_out(out, 0, 1));
+    TRY(lattice_datasets_open(&d.file, path));
+    const dem_status status = read_open(&d, out, &(asked){begin, end, true});
+    *spans = d.spans;
     return status;
 }

@@ -18,6 +18,7 @@
 #include "lattice/lattice_arrays.h"
 #include "lattice/mesh_edges.h"
 #include "output/lattice_file.h"
+#include "output/slab_file.h"
 
 static long n_cases = 10000, first_seed = 1;
 
@@ -409,6 +410,24 @@ static void compare_file(const dem_lattice *l, dem_index n_parts)
     assert_int_equal(next, l->n_nodes);
 }
 
+/* Which have rim_boundary besides. */
+static void compare_ranges(const dem_lattice *l, dem_index step)
+{
+    CLEANUP(free_memory) dem_index *spans = NULL;
+    dem_index next = 0;
+    while (next < l->n_nodes) {
+        CLEANUP(dem_slab_free) dem_slab s = dem_slab_empty();
+        const dem_index end = next + step < l->n_nodes ? next + step : l->n_nodes;
+        assert_ok(dem_private_slab_of_file(&s, path, &spans, next, end));
+        assert_same_nodes(l, &s, &next);
+        assert_int_equal(next, end);
+        assert_non_null(s.rim_boundary);
+        assert_same_rim(l, &s);
+        assert_same_triangles(l, &s);
+        assert_same_springs(l, &s);
+    }
+}
+
 static void check_file(unsigned long seed)
 {
     CLEANUP(free_rng) gsl_rng *random = gsl_rng_alloc(gsl_rng_taus);
@@ -424,6 +443,7 @@ static void check_file(unsigned long seed)
     write_file(&l, (int)gsl_rng_uniform_int(random, 2));
     const dem_index n_parts = 1 + (dem_index)gsl_rng_uniform_int(random, 7);
     compare_file(&l, toss(random) || n_parts > l.n_nodes ? l.n_nodes / 2 : n_parts);
+    compare_ranges(&l, 1 + (dem_index)gsl_rng_uniform_int(random, (unsigned long)l.n_nodes));
 }
 
 TEST(slabs_of_files_are_what_the_whole_has)

@@ -37,7 +37,7 @@ TWO_DIMENSIONAL = {"src/base/box.h", "src/base/vec2.h", "src/forces/band.c", "sr
                    "src/output/event_table.c", "src/output/probe.c"}
 # What of the library the programs compile for themselves.
 SHARED = {"base/file", "base/grow", "base/numbered_file", "base/peak_source", "base/slab_recipe", "base/text_reader",
-          "base/union_find", "lattice/lattice_source", "shape/shape_slab"}
+          "base/union_find", "lattice/lattice_source", "output/slab_file", "shape/shape_slab"}
 MAX_FILE, MAX_FUNCTION, MAX_PARAMETERS, MAX_LINE = 600, 60, 6, 120
 
 

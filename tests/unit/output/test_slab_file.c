@@ -3,12 +3,16 @@
  * tests/property/test_slabs.c compares slabs of files with the whole. */
 #include "verification/support.h"
 
+#include <dem/shape.h>
 #include <dem/trajectory.h>
 
 #define WRITTEN_PATH "test_slab_file.h5"
 #include "unit/output/written.h"
 
 #include "harness/message.h"
+#include "output/lattice_datasets.h"
+#include "output/lattice_file.h"
+#include "output/slab_file.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -235,6 +239,130 @@ TEST_WITH(pieces_are_read_from_chunks_of_any_size, write_lattice, remove_lattice
     assert_refused(0, 3, DEM_ERROR_MODEL, "/lattice/contact_nodes: entry 199000 is -1 * 200000");
     free(chain);
     free(touching);
+}
+
+/* ---- ranges of nodes ---- */
+
+/* Node 4 has but a spring, and is in no triangle; the boundary has all others. */
+TEST_WITH(a_range_knows_which_nodes_of_its_rim_are_on_the_boundary, write_ordered, remove_lattice)
+{
+    CLEANUP(free_memory) dem_index *spans = NULL;
+    CLEANUP(dem_slab_free) dem_slab s = dem_slab_empty();
+    CLEANUP(dem_slab_free) dem_slab none = dem_slab_empty();
+    assert_ok(dem_private_slab_of_file(&s, path, &spans, 3, 4));
+    assert_int_equal(s.first_node, 3);
+    assert_int_equal(s.n_own, 1);
+    assert_memory_equal(s.rim, ((dem_index[3]){0, 2, 4}), 3 * sizeof *s.rim);
+    assert_memory_equal(s.rim_boundary, ((unsigned char[3]){1, 1, 0}), 3);
+    assert_ok(dem_private_slab_of_file(&none, path, &spans, 2, 2));
+    assert_int_equal(none.n_nodes, 5);
+    assert_int_equal(none.n_triangles, 2);
+    assert_int_equal(none.n_own, 0);
+    assert_int_equal(none.lattice.n_nodes, 0);
+}
+
+TEST_WITH(ranges_that_there_are_not_are_refused, write_lattice, remove_lattice)
+{
+    CLEANUP(free_memory) dem_index *spans = NULL;
+    dem_slab s = dem_slab_empty();
+    assert_int_equal(dem_private_slab_of_file(&s, path, &spans, 2, 6), DEM_ERROR_MODEL);
+    assert_message_parts("test_slab_file.h5: has no nodes from 2 to 5: there are 5");
+    assert_int_equal(dem_private_slab_of_file(&s, path, &spans, -1, 2), DEM_ERROR_MODEL);
+    assert_int_equal(dem_private_slab_of_file(&s, path, &spans, 3, 2), DEM_ERROR_MODEL);
+    assert_int_equal(dem_private_slab_of_file(&s, path, &spans, 0, 2), DEM_ERROR_MODEL);
+    assert_message_parts("/lattice/ends: spring 3 * lowest node 0 * before it 2");
+    assert_null(spans); /* what is not known of all pieces is not kept */
+    put_whole("ends", 6, 2, ordered);
+    assert_ok(dem_private_slab_of_file(&s, path, &spans, 0, 2));
+    assert_non_null(spans);
+    dem_slab_free(&s);
+}
+
+enum { ROWS = 280 }; /* of as many nodes each: springs and triangles are in several pieces of the file */
+
+static void write_block(void)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
+    const dem_material any = {
+        .struct_size = sizeof any, .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1e3, .thickness = 1.0};
+    hdf5_file file;
+    assert_ok(dem_lattice_squares(&l, ROWS - 1.0, ROWS - 1.0, 1.0));
+    assert_ok(dem_lattice_assemble_squares(&l, &any, 0.5));
+    assert_true(l.n_triangles > 2 * LATTICE_PIECE);
+    assert_ok(hdf5_open_new(&file, path, 4096));
+    assert_ok(hdf5_close(&file, lattice_file_write(&file, &(lattice_source){&l, NULL}, 1)));
+}
+
+static void assert_same_slab(const dem_slab *a, const dem_slab *b)
+{
+    const dem_lattice *l = &a->lattice, *m = &b->lattice;
+    assert_int_equal(a->n_own, b->n_own);
+    assert_int_equal(a->first_triangle, b->first_triangle);
+    assert_int_equal(l->n_nodes, m->n_nodes);
+    assert_int_equal(l->n_springs, m->n_springs);
+    assert_int_equal(l->n_triangles, m->n_triangles);
+    assert_memory_equal(a->rim, b->rim, (size_t)(l->n_nodes - a->n_own) * sizeof *a->rim);
+    assert_memory_equal(l->ends, m->ends, 2 * (size_t)l->n_springs * sizeof *l->ends);
+    assert_memory_equal(l->triangles, m->triangles, 3 * (size_t)l->n_triangles * sizeof *l->triangles);
+    assert_memory_equal(l->mass, m->mass, (size_t)l->n_nodes * sizeof *l->mass);
+    assert_memory_equal(l->stiffness, m->stiffness, (size_t)l->n_springs * sizeof *l->stiffness);
+}
+
+/* Of rows of ROWS nodes: the first and last ones of each, and the first and last row. */
+static void assert_block_boundary(const dem_slab *s)
+{
+    for (dem_index k = 0; k < s->lattice.n_nodes - s->n_own; k++) {
+        const dem_index row = s->rim[k] / ROWS, column = s->rim[k] % ROWS;
+        const bool is_outer = row == 0 || row == ROWS - 1 || column == 0 || column == ROWS - 1;
+        assert_int_equal(s->rim_boundary[k], is_outer);
+    }
+}
+
+TEST_WITH(ranges_are_the_same_by_what_is_known_of_the_pieces, write_lattice, remove_lattice)
+{
+    CLEANUP(free_memory) dem_index *spans = NULL;
+    write_block();
+    for (dem_index part = 0; part < 40; part += 3) {
+        CLEANUP(dem_slab_free) dem_slab range = dem_slab_empty();
+        CLEANUP(dem_slab_free) dem_slab read = read_slab(part, 40);
+        assert_ok(dem_private_slab_of_file(&range, path, &spans, read.first_node, read.first_node + read.n_own));
+        assert_same_slab(&read, &range);
+        assert_block_boundary(&range);
+    }
+}
+
+/* Triangles at a rim may be in the piece behind all that own nodes have, which begins in row 117. */
+TEST_WITH(ranges_that_end_with_a_piece_know_the_boundary, write_lattice, remove_lattice)
+{
+    CLEANUP(free_memory) dem_index *spans = NULL;
+    write_block();
+    for (dem_index end = 115 * ROWS; end < 120 * ROWS; end += 60) {
+        CLEANUP(dem_slab_free) dem_slab range = dem_slab_empty();
+        assert_ok(dem_private_slab_of_file(&range, path, &spans, end - 50, end));
+        assert_block_boundary(&range);
+    }
+}
+
+/* Which shows where something far away has become wrong. */
+TEST_WITH(pieces_without_anything_of_a_range_are_not_looked_at_again, write_lattice, remove_lattice)
+{
+    CLEANUP(free_memory) dem_index *spans = NULL;
+    CLEANUP(dem_lattice_free) dem_lattice whole = dem_lattice_empty();
+    CLEANUP(dem_slab_free) dem_slab before = dem_slab_empty();
+    CLEANUP(dem_slab_free) dem_slab after = dem_slab_empty();
+    dem_slab refused = dem_slab_empty();
+    write_block();
+    assert_ok(dem_lattice_read(&whole, path));
+    assert_ok(dem_private_slab_of_file(&before, path, &spans, 500, 1000));
+    whole.ends[2 * whole.n_springs - 1] = -1;
+    whole.triangles[3 * whole.n_triangles - 1] = -1;
+    put_whole("ends", (hsize_t)whole.n_springs, 2, whole.ends);
+    put_whole("triangles", (hsize_t)whole.n_triangles, 3, whole.triangles);
+    assert_ok(dem_private_slab_of_file(&after, path, &spans, 500, 1000));
+    assert_same_slab(&before, &after);
+    assert_int_equal(dem_private_slab_of_file(&refused, path, &spans, whole.n_nodes - 9, whole.n_nodes),
+                     DEM_ERROR_MODEL);
+    assert_int_equal(dem_slab_read(&refused, path, 0, 160), DEM_ERROR_MODEL);
 }
 
 /* ---- refused ---- */
