@@ -23,4 +23,13 @@ static inline dem_index slab_nodes_number(const dem_slab *slab, dem_index i)
     return slab_nodes_own(slab, i) ? slab->first_node + i - slab->first_own : slab->rim[slab_nodes_rim(slab, i)];
 }
 
+/* Whether the lowest of the nodes of a spring or triangle is an own one, as it is in one slab of all that have it. The
+ * nodes of a slab are in the order of their numbers. */
+static inline bool slab_nodes_owns(const dem_slab *slab, const dem_index *corner, int arity)
+{
+    dem_index lowest = corner[0];
+    for (int c = 1; c < arity; c++) lowest = corner[c] < lowest ? corner[c] : lowest;
+    return slab_nodes_own(slab, lowest);
+}
+
 #endif

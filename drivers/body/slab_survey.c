@@ -84,8 +84,7 @@ bool slab_survey_add_strip(slab_survey *s, const dem_slab *slab)
     dem_index *rims = find_rims(s, slab);
     bool good = rims != NULL;
     for (dem_index t = 0; t < l->n_triangles && good; t++)
-        if (slab->first_triangle + t >= s->next_triangle) good = add_triangle(s, slab, l->triangles + 3 * t, rims);
-    s->next_triangle = slab->first_triangle + l->n_triangles;
+        if (slab_nodes_owns(slab, l->triangles + 3 * t, 3)) good = add_triangle(s, slab, l->triangles + 3 * t, rims);
     free(rims);
     return good;
 }
@@ -166,6 +165,12 @@ static void join(slab_survey *s, const dem_index *number, const dem_index *part,
     }
 }
 
+static void note_springs(slab_survey *s, const dem_lattice *l)
+{
+    for (dem_index k = 0; k < l->n_springs; k++)
+        if (s->rest_length == 0.0 || l->rest_length[k] < s->rest_length) s->rest_length = l->rest_length[k];
+}
+
 bool slab_survey_add_parts(slab_survey *s, const dem_slab *slab)
 {
     const size_t room = (size_t)slab->lattice.n_nodes + 1;
@@ -178,6 +183,7 @@ bool slab_survey_add_parts(slab_survey *s, const dem_slab *slab)
         free(part);
         return false;
     }
+    note_springs(s, &slab->lattice);
     for (dem_index i = 0; i < slab->lattice.n_nodes; i++) {
         number[i] = slab_nodes_number(slab, i);
         part[i] += first;

@@ -17,13 +17,13 @@ typedef struct slab_corner {
 
 /* Zero at first. Free with slab_survey_free() in any case. */
 typedef struct slab_survey {
-    dem_index next_triangle; /* of the whole, behind those that have been looked at */
     dem_index n_corners, corner_room;
     slab_corner *corners; /* [n_corners] of the triangles of the strip, three each */
     bool has_inner;       /* there are triangles inside of the strip, */
     double shortest;      /* m, of which this is the shortest side, */
     slab_corner inner[3]; /* and this the triangle that has it */
     bool has_hinge;       /* triangles meet in a node that share no edge */
+    double rest_length;   /* m, of the shortest spring; 0 without springs */
     dem_index n_parts, part_room;
     dem_index *parent; /* [n_parts] of parts of slabs, which of them are one (base/union_find.h) */
     dem_index n_last;
@@ -33,7 +33,7 @@ typedef struct slab_survey {
 /* Looks at a triangulation, which has no springs yet. False when memory runs out. */
 bool slab_survey_add_strip(slab_survey *s, const dem_slab *slab);
 
-/* Looks at what its springs connect. False when memory runs out. */
+/* Looks at its springs and at what they connect. False when memory runs out. */
 bool slab_survey_add_parts(slab_survey *s, const dem_slab *slab);
 
 /* Whether the body is in one part, all of whose triangles hang together by edges. */

@@ -47,15 +47,19 @@ static void add_slowness(lattice_facts *f, const lattice_spring *s)
     f->n_springs++;
 }
 
-/* Masses of a rim are not those of the whole, but the next slab has the nodes above this one. */
+/* Masses of a rim are not those of the whole, but slabs to come have the nodes above this one as their own. */
 static void add_waiting(lattice_facts *f, const dem_slab *slab)
 {
+    dem_index n = 0;
     for (dem_index k = 0; k < f->n_waiting; k++) {
         lattice_spring *s = &f->waiting[k];
-        if (s->upper >= 0) s->mass[1] = mass_of(slab, slab->first_own + s->upper - slab->first_node);
-        add_slowness(f, s);
+        if (s->upper < slab->first_node || s->upper >= slab->first_node + slab->n_own) continue;
+        s->mass[1] = mass_of(slab, slab->first_own + s->upper - slab->first_node);
+        s->upper = -1;
     }
-    f->n_waiting = 0;
+    while (n < f->n_waiting && f->waiting[n].upper < 0) add_slowness(f, &f->waiting[n++]);
+    f->n_waiting -= n;
+    if (n > 0) memmove(f->waiting, f->waiting + n, (size_t)f->n_waiting * sizeof *f->waiting);
 }
 
 /* In their order: behind one that waits all wait. */

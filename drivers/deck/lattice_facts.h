@@ -16,7 +16,7 @@ typedef struct lattice_body {
     initial_motion motion;
 } lattice_body;
 
-/* A spring whose upper end has its mass in the next slab, or that comes behind one. */
+/* A spring whose upper end has its mass in a slab to come, or that comes behind one. */
 typedef struct lattice_spring {
     double mass[2];  /* kg, of its ends */
     double scale;    /* N m, its stiffness times its length */
@@ -35,14 +35,14 @@ typedef struct lattice_facts {
     dem_index n_bodies;
     double least_slowness, sum_of_slowness; /* of the n_springs so far: how long waves take along them, s/m */
     dem_index n_springs;
-    lattice_spring *waiting; /* [n_waiting] for the next slab */
+    lattice_spring *waiting; /* [n_waiting] for slabs to come */
     dem_index n_waiting, room;
 } lattice_facts;
 
 /* Of a lattice of which a model can be made. False when memory runs out. Free with lattice_facts_free() in any case. */
 bool lattice_facts_find(lattice_facts *out, const dem_lattice *lattice);
 
-/* The same of slabs of whole rows, one after the other. The box is that of `box`, any nodes that have the outermost
+/* The same of slabs, one after the other. The box is that of `box`, any nodes that have the outermost
  * among them. Facts are zero at first. */
 bool lattice_facts_add(lattice_facts *facts, const dem_slab *slab);
 void lattice_facts_find_box(lattice_facts *facts, const dem_lattice *box);

@@ -114,6 +114,19 @@ TEST(a_strip_of_moved_nodes_has_the_shortest_side_of_the_whole)
     for (dem_index n = 1; n <= MOST_SLABS; n++) check_strip(&shape, n, 0.3 * shape.spacing);
 }
 
+TEST(the_shortest_spring_of_all_slabs_is_known)
+{
+    const dem_shape shape = shape_of(NULL, 0);
+    CLEANUP(slab_survey_free) slab_survey whole = look(&shape, 1, 0.2 * shape.spacing);
+    CLEANUP(dem_lattice_free) dem_lattice strip = dem_lattice_empty();
+    assert_true(slab_survey_take_strip(&strip, &whole));
+    assert_close(whole.rest_length, shortest_side(&strip), 1e-15);
+    for (dem_index n = 2; n <= MOST_SLABS; n++) {
+        CLEANUP(slab_survey_free) slab_survey s = look(&shape, n, 0.2 * shape.spacing);
+        assert_close(s.rest_length, whole.rest_length, 0.0);
+    }
+}
+
 TEST(a_body_in_two_parts_is_seen_to_be)
 {
     const dem_outline cut = {

@@ -76,6 +76,31 @@ TEST(the_fastest_spring_is_compared_with_the_mean_one)
     assert_close(none.share_of_fastest, 1.0, 0.0);
 }
 
+/* Springs wait for the masses of their upper ends, which are not in the next slab, and for those before them. */
+TEST(facts_are_those_of_the_whole_where_springs_are_longer_than_slabs)
+{
+    dem_index far[10] = {0, 3, 0, 1, 1, 2, 1, 3, 2, 3};
+    double scales[5] = {100.0, 300.0, 70.0, 20.0, 90.0}, lengths[5] = {1.0, 2.0, 3.0, 4.0, 5.0};
+    dem_lattice l = chain();
+    CLEANUP(lattice_facts_free) lattice_facts whole;
+    CLEANUP(lattice_facts_free) lattice_facts slabs = {0};
+    l.n_springs = 5, l.stiffness = scales, l.rest_length = lengths;
+    l.body = NULL, l.ends = far;
+    assert_true(lattice_facts_find(&whole, &l));
+    for (dem_index i = 0; i < 4; i++) {
+        dem_index rim[3] = {0, 1, 2};
+        dem_slab s = dem_slab_empty();
+        for (dem_index k = i; k < 3; k++) rim[k] = k + 1;
+        s.lattice = l;
+        s.n_nodes = 4, s.first_node = i, s.first_own = i, s.n_own = 1, s.rim = rim;
+        assert_true(lattice_facts_add(&slabs, &s));
+    }
+    assert_int_equal(slabs.n_springs, 5);
+    assert_int_equal(slabs.n_waiting, 0);
+    assert_close(slabs.share_of_fastest, whole.share_of_fastest, 0.0);
+    assert_close(slabs.motion.mass, whole.motion.mass, 0.0);
+}
+
 /* 10 kg m/s of body 0, of 9 kg, and 2 (3, 0) kg m/s of body 1, of 2 kg. */
 TEST(bodies_have_momenta_and_all_have_their_sum)
 {
