@@ -7,6 +7,7 @@
 #include "copies.h"
 #include "rank_group.h"
 
+static const dem_index of_look = 65536;  /* nodes of slabs of files, a piece of which has as many rows */
 static const double most_bodies = 100.0; /* of c->slab_nodes: smaller ones are mostly surface, which all ranks have */
 
 /* Bodies that are large enough, so that a rank has a share of them alone. */
@@ -15,6 +16,7 @@ void slab_plan_decide(deck *d, const command *c, double nodes)
     const double each = nodes / (double)copies_total(&d->groups);
     const bool large = nodes >= c->slab_nodes && most_bodies * each >= c->slab_nodes;
     if (c->ranks != NULL && c->ranks->size > 1 && large && deck_slabs_suit(&d->groups)) d->slabs.n = c->ranks->size;
+    d->slabs.least = of_look;
 }
 
 /* Rank 0 has its share, and what it shows and writes of the whole (docs/performance.md). */

@@ -16,6 +16,7 @@
 #include "copies.h"
 #include "material.h"
 #include "rigid_keys.h"
+#include "slab_nodes.h"
 #include "weibull_keys.h"
 
 static const double lost = 1e-6; /* of the spacing: the default penetration tolerance, which rounding must not hide */
@@ -558,14 +559,14 @@ bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const bo
 static void count_included(body_inclusions *found, const dem_slab *slab, const dem_index *of)
 {
     for (dem_index t = 0; t < slab->lattice.n_triangles; t++)
-        found->n_triangles += of[t] > 0 && slab->first_triangle + t >= found->next;
-    found->next = slab->first_triangle + slab->lattice.n_triangles;
+        found->n_triangles += of[t] > 0 && slab_nodes_owns(slab, slab->lattice.triangles + 3 * t, 3);
 }
 
 dem_status body_assemble_slab(dem_slab *slab, body_inclusions *found, const body_scene *scene, size_t k,
                               namelist_errors *errors)
 {
     builder b = begin(scene, k, errors);
+    if (has_shape(b.body, "file")) return DEM_OK;
     dem_index *of = calloc((size_t)slab->lattice.n_triangles + 1, sizeof *of);
     if (found->is_met == NULL) found->is_met = calloc(found->n + 1, sizeof *found->is_met);
     if (of == NULL || found->is_met == NULL) {
@@ -586,10 +587,13 @@ bool body_place_strip(dem_lattice *strip, body_start *start, const body_scene *s
                       namelist_errors *errors)
 {
     builder b = begin(scene, k, errors);
-    const dem_material material = body_geometry_material(scene->groups, k);
     b.lattice = *strip;
     b.is_strip = true;
-    dem_status status = report(&b, dem_lattice_assemble(&b.lattice, &material), "material");
+    dem_status status = DEM_OK;
+    if (!has_shape(b.body, "file")) {
+        const dem_material material = body_geometry_material(scene->groups, k);
+        status = report(&b, dem_lattice_assemble(&b.lattice, &material), "material");
+    }
     if (status == DEM_OK) status = put(&b, centre);
     if (status == DEM_OK && copies_count(b.body) > 1) status = put_copy(&b, 0);
     *strip = b.lattice;

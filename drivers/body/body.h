@@ -83,18 +83,18 @@ bool body_put_copy(dem_lattice *lattice, double offset[2], const schema_instance
 typedef struct body_inclusions {
     size_t n;              /* that the body has */
     bool *is_met;          /* [n] they have a triangle */
-    dem_index n_triangles; /* of theirs, */
-    dem_index next;        /* among those of the body before this one */
+    dem_index n_triangles; /* of theirs */
 } body_inclusions;
 
-/* Gives a slab of body k, as body_geometry_slab() makes it, the springs and masses that it has in the whole. A fault is
- * appended to `errors` with any other status but DEM_OK and DEM_ERROR_MEMORY.
- * \param found  in it the inclusions of the slab are counted: slabs come in their order */
+/* Gives a slab of body k, as body_geometry_slab() makes it, the springs and masses that it has in the whole: a slab of
+ * a lattice file has them. A fault is appended to `errors` with any other status but DEM_OK and DEM_ERROR_MEMORY.
+ * \param found  in it the inclusions of the slab are counted */
 dem_status body_assemble_slab(dem_slab *slab, body_inclusions *found, const body_scene *scene, size_t k,
                               namelist_errors *errors);
 
 /* Puts the strip of a body, as a triangulation, in the place that body k has by its keys, with springs of its material.
- * A fault is appended to `errors`. Returns false only when memory runs out.
+ * A strip of a lattice file has springs already (file_slab.h). A fault is appended to `errors`. Returns false only when
+ * memory runs out.
  * \param centre  of the mass of the body, m, as body_put() has it */
 bool body_place_strip(dem_lattice *strip, body_start *start, const body_scene *scene, size_t k, const double centre[2],
                       namelist_errors *errors);

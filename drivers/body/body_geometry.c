@@ -10,6 +10,7 @@
 #include "body_outline.h"
 #include "image_file.h"
 #include "material.h"
+#include "output/slab_file.h"
 #include "shape/shape_slab.h"
 
 static const double pi = 3.14159265358979323846;
@@ -484,18 +485,32 @@ static former begin(const schema_deck *groups, size_t k, const char *folder, nam
     return f;
 }
 
+static dem_status cut_slab(dem_slab *slab, former *f, dem_index **rows, body_range range)
+{
+    dem_status status = make_shape(f);
+    f->shape.numbered = false;
+    if (status == DEM_OK)
+        status = report(f, dem_private_slab_between(slab, &f->shape, rows, range.begin, range.end), f->body->place, "");
+    if (status == DEM_OK) status = weigh(f);
+    return status == DEM_OK && slab->n_own > 0 ? jitter(f, slab) : status;
+}
+
+static dem_status read_slab(dem_slab *slab, const former *f, dem_index **spans, body_range range)
+{
+    char *path = body_geometry_file(f->folder, f->body);
+    if (path == NULL) return DEM_ERROR_MEMORY;
+    const dem_status status = dem_private_slab_of_file(slab, path, spans, range.begin, range.end);
+    free(path);
+    return report(f, status, schema_place(f->body, "file"), "");
+}
+
 dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const body_keys *body, body_range range,
                               namelist_errors *errors)
 {
     former f = begin(body->groups, body->k, body->folder, errors);
     *slab = dem_slab_empty();
-    dem_status status = make_shape(&f);
-    f.shape.numbered = false;
-    if (status == DEM_OK)
-        status =
-            report(&f, dem_private_slab_between(slab, &f.shape, body->rows, range.begin, range.end), f.body->place, "");
-    if (status == DEM_OK) status = weigh(&f);
-    if (status == DEM_OK && slab->n_own > 0) status = jitter(&f, slab);
+    const dem_status status =
+        has_shape(f.body, "file") ? read_slab(slab, &f, body->rows, range) : cut_slab(slab, &f, body->rows, range);
     if (status != DEM_OK) dem_slab_free(slab);
     former_free(&f);
     *out = f.geometry;

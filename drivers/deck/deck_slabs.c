@@ -9,18 +9,24 @@
 #include "angle.h"
 #include "base/grow.h"
 #include "copies.h"
+#include "file_slab.h"
 #include "namelist.h"
 #include "rigid_keys.h"
 #include "slab_survey.h"
 
 /* ---- whether a deck suits ---- */
 
-static bool is_plain(const schema_instance *body)
+static bool is_of_file(const schema_deck *groups, size_t k)
 {
-    static const char *const of_files[] = {"file", "mesh"};
-    for (size_t k = 0; k < sizeof of_files / sizeof *of_files; k++)
-        if (schema_is(body, "shape", of_files[k])) return false;
-    return !schema_is(body, "outline", "smooth") && !rigid_keys_ask(body);
+    return schema_is(schema_get(groups, "body", k), "shape", "file");
+}
+
+/* The fastest node of a file may be inside, where no strip has it: only rounding at `v_scale` asks for it. */
+static bool is_plain(const schema_deck *groups, size_t k)
+{
+    const schema_instance *body = schema_get(groups, "body", k);
+    if (is_of_file(groups, k) && schema_given(schema_get(groups, "solver", 0), "v_scale")) return false;
+    return !schema_is(body, "shape", "mesh") && !schema_is(body, "outline", "smooth") && !rigid_keys_ask(body);
 }
 
 static bool is_elastic(const schema_deck *groups)
@@ -44,7 +50,7 @@ bool deck_slabs_suit(const schema_deck *groups)
     for (size_t k = 0; k < sizeof of_the_whole / sizeof *of_the_whole; k++)
         if (schema_count(groups, of_the_whole[k]) > 0) return false;
     for (size_t k = 0; k < schema_count(groups, "body"); k++)
-        if (!is_plain(schema_get(groups, "body", k))) return false;
+        if (!is_plain(groups, k)) return false;
     return is_elastic(groups) && !shows_fragments(schema_get(groups, "output", 0));
 }
 
@@ -72,6 +78,7 @@ static dem_status put(dem_slab *slab, body_inclusions *found, const maker *m, si
     const body_scene scene = {.groups = m->groups};
     const dem_status status = body_assemble_slab(slab, found, &scene, k, m->errors);
     if (status != DEM_OK) return status;
+    if (is_of_file(m->groups, k)) file_slab_forget_start(slab);
     return body_put(&slab->lattice, schema_get(m->groups, "body", k), m->bodies[k].centre);
 }
 
@@ -138,7 +145,7 @@ static dem_status add(dem_slab *out, dem_slab *more, const tally *before, bool i
     if (!add_rim(out, more, before)) return DEM_ERROR_MEMORY;
     if (n == 0) {
         out->first_node = before->nodes + more->first_node;
-        out->first_triangle = before->triangles + more->first_triangle;
+        out->first_triangle = more->first_triangle < 0 ? -1 : before->triangles + more->first_triangle;
         out->first_own = more->first_own;
     }
     if (n == 0 && !is_wanted) {
@@ -248,6 +255,15 @@ static dem_status make_each(dem_index n, const maker *m, deck_slabs_visitor *vis
     return status;
 }
 
+/* In how many slabs bodies are looked at, which are those of ranks, or larger ones of files. */
+static dem_index count_looks(const deck_slabs *slabs, const maker *m)
+{
+    for (size_t k = 0; k < schema_count(m->groups, "body"); k++)
+        if (!is_of_file(m->groups, k)) return slabs->n;
+    const dem_index most = slabs->least > 0 ? 1 + count_nodes(m) / slabs->least : slabs->n;
+    return slabs->n < most ? slabs->n : most;
+}
+
 static maker maker_of(const deck_slabs *slabs, const body_scene *scene, namelist_errors *errors)
 {
     return (maker){.groups = scene->groups,
@@ -263,7 +279,7 @@ dem_status deck_slabs_each(const deck_slabs *slabs, const body_scene *scene, dec
 {
     namelist_errors errors = {0};
     const maker m = maker_of(slabs, scene, &errors);
-    const dem_status status = make_each(slabs->n, &m, visit, visitor);
+    const dem_status status = make_each(count_looks(slabs, &m), &m, visit, visitor);
     namelist_errors_free(&errors);
     return status;
 }
@@ -296,6 +312,7 @@ static void add_mass(body_look *l, const dem_slab *slab)
     }
 }
 
+/* Of what is made here: files are taken as they are. */
 static dem_status note_angle(body_facts *facts, const dem_slab *slab)
 {
     double least;
@@ -307,7 +324,8 @@ static dem_status note_angle(body_facts *facts, const dem_slab *slab)
 static dem_status look_at_slab(body_look *l, dem_slab *slab)
 {
     if (!slab_survey_add_strip(&l->survey, slab)) return DEM_ERROR_MEMORY;
-    dem_status status = note_angle(l->facts, slab);
+    const bool is_read = is_of_file(l->maker->groups, l->k);
+    dem_status status = is_read ? file_slab_check(slab) : note_angle(l->facts, slab);
     l->inclusions.n = l->facts->geometry.n_inclusions;
     if (status == DEM_OK) status = put(slab, &l->inclusions, l->maker, l->k);
     if (status == DEM_OK && !slab_survey_add_parts(&l->survey, slab)) return DEM_ERROR_MEMORY;
@@ -343,18 +361,20 @@ static dem_status conclude(body_look *l, dem_lattice *strip, slab_body *body)
     if (!slab_survey_is_one(&l->survey) || !all_are_met(&l->inclusions)) return DEM_ERROR_MODEL;
     f->is_strip = true;
     f->further = copies_count(schema_get(l->maker->groups, "body", l->k)) - 1;
+    for (int c = 0; c < 2; c++) body->centre[c] = 1.0 / f->mass * l->moment[c];
+    if (!slab_survey_take_strip(strip, &l->survey)) return DEM_ERROR_MEMORY;
+    if (is_of_file(l->maker->groups, l->k)) return file_slab_join_strip(strip, l->survey.rest_length);
     f->true_mass = f->geometry.mass;
     f->plane = body_geometry_material(l->maker->groups, l->k).plane;
     f->n_included = l->inclusions.n_triangles;
-    for (int c = 0; c < 2; c++) body->centre[c] = 1.0 / f->mass * l->moment[c];
-    return slab_survey_take_strip(strip, &l->survey) ? DEM_OK : DEM_ERROR_MEMORY;
+    return DEM_OK;
 }
 
 /* In n slabs. */
 static dem_status look_at_body(deck_slabs_found *out, slab_body *body, const maker *m, size_t k, dem_index n)
 {
     body_look l = {.maker = m, .k = k, .facts = &out->bodies[k], .at_once = out->at_once ? &out->lattice : NULL};
-    *l.facts = (body_facts){.least_angle = (double)INFINITY};
+    *l.facts = (body_facts){.least_angle = is_of_file(m->groups, k) ? 0.0 : (double)INFINITY};
     dem_status status = look_at_slabs(&l, n);
     if (status == DEM_OK) status = conclude(&l, &out->strips[k], body);
     slab_survey_free(&l.survey);
@@ -378,13 +398,14 @@ static dem_status look_at_all(deck_slabs_found *out, deck_slabs *slabs, const ma
 {
     dem_status status = DEM_OK;
     for (size_t k = 0; k < out->n && status == DEM_OK; k++) status = count(&slabs->bodies[k], m, k);
-    const dem_index all = count_nodes(m);
+    const dem_index all = count_nodes(m), n = count_looks(slabs, m);
+    if (status == DEM_OK && all < slabs->n) return DEM_ERROR_MODEL; /* a rank would have none */
     for (size_t k = 0; k < out->n && status == DEM_OK; k++) {
         slab_body *body = &slabs->bodies[k];
-        status = look_at_body(out, body, m, k, (body->n_nodes * slabs->n + all - 1) / all);
+        status = look_at_body(out, body, m, k, (body->n_nodes * n + all - 1) / all);
     }
     if (status != DEM_OK || out->at_once) return status;
-    return make_each(slabs->n, m, add_facts, &out->lattice);
+    return make_each(n, m, add_facts, &out->lattice);
 }
 
 /* Sums over nodes are those of a single body, whose motion is known as soon as its slabs are made. */

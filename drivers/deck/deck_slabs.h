@@ -7,7 +7,8 @@
 #include "body.h"
 #include "lattice_facts.h"
 
-/* Whether the keys ask for nothing that takes the whole: elastic bodies with stepped edges, without cracks. */
+/* Whether the keys ask for nothing that takes the whole: elastic bodies with stepped edges, without cracks, or lattice
+ * files, which are looked at later. */
 bool deck_slabs_suit(const schema_deck *groups);
 
 /* What makes of slabs of a body, or of one of its copies, besides the keys, what they are in the whole. */
@@ -18,7 +19,9 @@ typedef struct slab_body {
 } slab_body;
 
 typedef struct deck_slabs {
-    dem_index n;       /* slabs in which bodies are looked at, if the deck suits; 0: they are built as a whole */
+    dem_index n;       /* slabs that ranks make, if the deck suits; 0: bodies are built as a whole */
+    dem_index least;   /* nodes of slabs in which lattice files are looked at, if these have so many: a piece of a file
+                          is unpacked for each slab that has some of it */
     bool are_made;     /* their lattice is made in slabs, and the deck has none */
     slab_body *bodies; /* [n_bodies] owned, one for each &body group */
     dem_index **rows;  /* [n_bodies] owned, as body_keys has them */

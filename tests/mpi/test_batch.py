@@ -120,6 +120,35 @@ SEVERAL_IN_SLABS = """
 &probe name = 'top', body = 2, place = 0, 1 /
 &probe name = 'any', kind = 'gauge', number = 0, 150 /
 """
+# A smooth disc, and a block that spins, whose outputs are what the deck behind them begins with. The second of 3 ranks
+# has nothing of them.
+SOURCES = """
+&run t_end = 1e-6 /
+&material youngs_modulus = 1e6, poissons_ratio = 0.3, density = 1050, damping_time = 1e-5 /
+&body shape = 'disc', radius = 0.03, spacing = 4e-3 /
+&output name = 'disc', frame_interval = 1 /
+""", """
+&run t_end = 1e-6 /
+&material youngs_modulus = 2e6, poissons_ratio = 0.3, density = 2000 /
+&body shape = 'rectangle', size = 0.05, 0.04, spacing = 4e-3, lattice = 'square', jitter = 0.2, spin = 40 /
+&output name = 'block', frame_interval = 1 /
+"""
+OF_FILES = """
+&run t_end = 1.5e-3 /
+&material youngs_modulus = 1e6, poissons_ratio = 0.3, density = 1050 /
+&body shape = 'file', file = 'disc.vtkhdf', clearance = 2e-4, velocity = 2, -12, spin = 5 /
+&body shape = 'rectangle', size = 0.05, 0.03, spacing = 1.9e-3, outline = 'lattice', position = -0.09, 0.03,
+    velocity = 15, 0 /
+&body shape = 'file', file = 'block.vtkhdf', copies = 2, 1, pitch = 0.055, 1, position = 0.063, 0.0125, angle = 12,
+    velocity = -8, -3 /
+&obstacle points = -0.2, -0.02, -0.01, -0.01, 0.01, 0.01, 0.2, -0.02, friction = 0.3 /
+&solver checkpoint_steps = 20 /
+&output name = 'free', frame_interval = 2e-4, peak_every = 3, measure = .false.,
+    fields = 'displacement', 'velocity', 'stress', 'strain', 'force', 'contact' /
+&probe name = 'top', place = 0, 1 /
+&probe name = 'any', kind = 'spring', body = 1, place = 0, 0 /
+&boundary body = 2, where = 'side', side = 'left', kind = 'traction', traction = 3e4, 0, ramp = 1e-4 /
+"""
 # So many nodes that rows are left out, which falls on a floor and comes off again.
 LANDS = """
 &run t_end = 6e-3 /
@@ -499,6 +528,24 @@ class InSlabs(Runs):
                                             deck="several.nml")
             self.assertEqual(code, 0, errors)
             self.assertIn("of slabs", log)
+        self.assert_same("one", "parts")
+
+    def test_files_of_bodies_from_files_are_those_of_one_process(self):
+        for k, text in enumerate(SOURCES):
+            (self.folder / f"source{k}.nml").write_text(text, encoding="ascii")
+            self.assertEqual(self.run_on(0, ".", deck=f"source{k}.nml")[0], 0)
+        (self.folder / "files.nml").write_text(OF_FILES, encoding="ascii")
+        self.assertEqual(self.run_on(0, "one", deck="files.nml")[0], 0)
+        self.assertGreater(min(self.result("one")["events"], self.result("one")["pairs_most"]), 10)
+        code, log, errors = self.run_on(3, "none", "--check", "--slab-nodes", "1", deck="files.nml")
+        self.assertEqual(code, 0, errors)
+        self.assertRegex(log, r"(?m)^ranks +3, of slabs: ")
+        for k, n in enumerate((3, 2)):
+            code, log, errors = self.run_on(n, "parts", "--set", f"run.t_end={(k + 1) * 7.5e-4}", "--slab-nodes", "1",
+                                            deck="files.nml")
+            self.assertEqual(code, 0, errors)
+            self.assertIn("of slabs", log)
+            self.assertEqual("resumed" in log, k > 0)
         self.assert_same("one", "parts")
 
     def test_what_is_refused_has_the_line_of_one_process(self):

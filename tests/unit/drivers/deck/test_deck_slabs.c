@@ -8,6 +8,8 @@
 #include "unit/close.h"
 #include "unit/deck_text.h"
 
+#include <dem/trajectory.h>
+
 #define RUN    "&run t_end = 1 /\n&material youngs_modulus = 1e7, density = 1000, damping_time = 1e-5 /\n"
 #define GROUND "&obstacle points = -0.3, -0.02, -0.02, -0.012, 0, 0.02, 0.03, -0.01, 0.3, -0.02 /\n"
 
@@ -83,7 +85,31 @@ static const char *const suited[] = {
                "components = 'x' /\n"
                "&boundary body = 2, where = 'list', nodes = 3, 200, kind = 'force', force = 1, 2 /\n"
                "&boundary body = 2, where = 'box', box = -0.01, -0.05, 0.01, -0.03 /\n",
+    /* Lattice files: alone, with all that may be asked for; beside other bodies, which have other arrays. */
+    RUN GROUND "&body shape = 'file', file = 'smooth.vtkhdf', clearance = 2e-4, velocity = 0.3, -10, angle = 20 /\n",
+    RUN GROUND
+    "&body shape = 'file', file = 'square.vtkhdf', clearance = 2e-4, angle = 40, spin = -7, velocity = 0, -1 /\n"
+    "&probe name = 'top', place = 0, 1 /\n&probe name = 'side', kind = 'spring', place = 1, 0.03 /\n"
+    "&probe name = 'this', kind = 'spring', number = 700 /\n"
+    "&boundary where = 'side', side = 'bottom' /\n"
+    "&boundary where = 'side', side = 'right', kind = 'traction', traction = 100, 0, ramp = 1 /\n"
+    "&boundary where = 'list', nodes = 3, 200, kind = 'force', force = 1, 2 /\n",
+    RUN "&body shape = 'file', file = 'other.vtkhdf' /\n&probe name = 'top', place = 0, 1 /\n",
+    RUN GROUND
+    "&body shape = 'rectangle', size = 0.06, 0.05, spacing = 5e-3, outline = 'lattice', clearance = 1e-3 /\n"
+    "&body shape = 'file', file = 'other.vtkhdf', position = -0.2, 0.1, velocity = 0, -2 /\n"
+    "&body shape = 'file', file = 'square.vtkhdf', copies = 3, 1, pitch = 0.12, 0.12, scatter = 5e-3, seed = 3, "
+    "spin = 5, position = 0.2, 0.2 /\n"
+    "&body shape = 'file', file = 'smooth.vtkhdf', position = 0, 0.4 /\n"
+    "&probe name = 'a', body = 1, place = 0, 0.01 /\n&probe name = 'b', body = 4, kind = 'spring', "
+    "place = 0, 0 /\n"
+    "&boundary body = 4, where = 'side', side = 'top', kind = 'velocity', velocity = 1, 0 /\n",
 };
+
+/* The sources of these files. */
+static const char smooth[] = RUN "&body shape = 'disc', radius = 0.05, spacing = 5e-3, outline = 'smooth' /\n";
+static const char square[] = RUN "&body shape = 'rectangle', size = 0.06, 0.07, spacing = 4e-3, lattice = 'square', "
+                                 "jitter = 0.2, spin = 30, velocity = 1, 2 /\n";
 
 /* A cross in a frame, 40 by 30 pixels, of which the dark ones are material. */
 static void put_image(const char *path)
@@ -102,7 +128,7 @@ static void put_image(const char *path)
 
 enum { N_SUITED = sizeof suited / sizeof *suited, MOST_SLABS = 5 };
 
-/* In so many slabs; 0: as a whole. */
+/* In so many slabs, and many ones of files are looked at in fewer; 0: as a whole. */
 static deck read_in(dem_index n, const char *text)
 {
     CLEANUP(namelist_errors_free) namelist_errors errors = {0};
@@ -112,6 +138,7 @@ static deck read_in(dem_index n, const char *text)
     deck_status status = deck_parse(&d, path, NULL, 0, &errors);
     if (status == DECK_OK) {
         d.slabs.n = deck_slabs_suit(&d.groups) ? n : 0;
+        d.slabs.least = n > 3 ? 150 : 0;
         status = deck_build(&d, &errors);
     }
     if (errors.n > 0) fail_msg("%s", errors.list[0].text);
@@ -119,6 +146,78 @@ static deck read_in(dem_index n, const char *text)
     assert_int_equal(unlink(path), 0);
     return d;
 }
+
+/* ---- lattice files ---- */
+
+static void ok(dem_status status)
+{
+    if (status != DEM_OK) fail_msg("%s", dem_status_message());
+}
+
+/* As the output of a run has it. */
+static void put_lattice(const char *path, const dem_lattice *l)
+{
+    dem_options usual = dem_options_default();
+    const dem_trajectory_options how = dem_trajectory_options_default();
+    dem_model *model;
+    dem_simulation *simulation;
+    dem_trajectory *file;
+    usual.max_step = 1e-6, usual.v_scale = 1.0, usual.bodies = DEM_BODIES_OTHERS; /* as rigid ones need */
+    ok(dem_model_create(&model, l, NULL, 0));
+    ok(dem_simulation_create(&simulation, model, &usual));
+    ok(dem_trajectory_create(&file, path, simulation, &how));
+    ok(dem_trajectory_finish(file));
+    dem_trajectory_destroy(file);
+    dem_simulation_destroy(simulation);
+    dem_model_destroy(model);
+}
+
+static void put_deck(const char *path, const char *text)
+{
+    CLEANUP(deck_free) deck d = read_in(0, text);
+    put_lattice(path, &d.lattice);
+}
+
+static int by_lowest(const void *a, const void *b)
+{
+    const dem_index *p = a, *q = b;
+    dem_index lowest[2] = {p[0], q[0]};
+    for (int c = 1; c < 3; c++) {
+        lowest[0] = p[c] < lowest[0] ? p[c] : lowest[0];
+        lowest[1] = q[c] < lowest[1] ? q[c] : lowest[1];
+    }
+    return (lowest[0] > lowest[1]) - (lowest[0] < lowest[1]);
+}
+
+/* A block without damping whose nodes have been numbered anew, by twos, so that the triangles of slabs have gaps. */
+static void put_other(const char *path)
+{
+    const dem_material hard = {
+        .struct_size = sizeof hard, .youngs_modulus = 1e8, .poissons_ratio = 0.2, .density = 3000.0, .thickness = 2.0};
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
+    ok(dem_lattice_rectangle(&l, 0.05, 0.08, 4e-3));
+    for (dem_index i = 0; i + 1 < l.n_nodes; i += 2)
+        for (int c = 0; c < 2; c++) {
+            const double kept = l.x[2 * i + c];
+            l.x[2 * i + c] = l.x[2 * (i + 1) + c];
+            l.x[2 * (i + 1) + c] = kept;
+        }
+    for (dem_index k = 0; k < 3 * l.n_triangles; k++)
+        if ((l.triangles[k] ^ 1) < l.n_nodes) l.triangles[k] ^= 1;
+    qsort(l.triangles, (size_t)l.n_triangles, 3 * sizeof *l.triangles, by_lowest);
+    ok(dem_lattice_assemble(&l, &hard));
+    put_lattice(path, &l);
+}
+
+static void put_files(void)
+{
+    put_image(folder_file(&scratch, "a.pgm"));
+    put_deck(folder_file(&scratch, "smooth.vtkhdf"), smooth);
+    put_deck(folder_file(&scratch, "square.vtkhdf"), square);
+    put_other(folder_file(&scratch, "other.vtkhdf"));
+}
+
+/* ---- what is the same ---- */
 
 static void check_body(const body_facts *a, const body_facts *b)
 {
@@ -168,8 +267,10 @@ static void check_probes(const deck *whole, const deck *slabs)
 }
 
 /* Own nodes, by their numbers, with all that they have in the whole. */
-static void check_nodes(const dem_lattice *whole, const dem_slab *slab)
+static void check_nodes(const dem_lattice *whole, dem_slab *slab)
 {
+    assert_null(slab->lattice.position);                                        /* as not all bodies may have any */
+    if (whole->flags != NULL) ok(dem_lattice_exclude(&slab->lattice, NULL, 0)); /* has some then */
     const dem_lattice *l = &slab->lattice;
     const dem_index first = slab->first_node, own = slab->first_own;
     const size_t n = (size_t)slab->n_own;
@@ -193,11 +294,25 @@ static void check_rim(const dem_lattice *whole, const dem_slab *slab)
     }
 }
 
-static void check_triangles(const dem_lattice *whole, const dem_slab *slab)
+static long n_gaps; /* slabs whose triangles do not follow each other in the whole */
+
+/* Those whose lowest node is an own one come behind those of the slabs before. \return how many there are in all */
+static dem_index check_triangles(const dem_lattice *whole, const dem_slab *slab, dem_index before)
 {
     const dem_lattice *l = &slab->lattice;
-    for (dem_index k = 0; k < 3 * l->n_triangles; k++)
+    for (dem_index k = 0; k < 3 * l->n_triangles && slab->first_triangle >= 0; k++)
         assert_int_equal(whole->triangles[3 * slab->first_triangle + k], slab_nodes_number(slab, l->triangles[k]));
+    for (dem_index t = 0; t < l->n_triangles; t++) {
+        if (!slab_nodes_owns(slab, l->triangles + 3 * t, 3)) continue;
+        assert_true(before < whole->n_triangles);
+        for (int c = 0; c < 3; c++)
+            assert_int_equal(whole->triangles[3 * before + c], slab_nodes_number(slab, l->triangles[3 * t + c]));
+        assert_memory_equal(whole->modulus + before, l->modulus + t, sizeof *l->modulus);
+        assert_memory_equal(whole->thickness + before, l->thickness + t, sizeof *l->thickness);
+        before++;
+    }
+    n_gaps += slab->first_triangle < 0;
+    return before;
 }
 
 /* Those whose lower end is an own node come behind those of the slabs before. \return how many there are in all */
@@ -210,8 +325,8 @@ static dem_index check_springs(const dem_lattice *whole, const dem_slab *slab, d
         assert_true(before < whole->n_springs);
         assert_memory_equal(whole->stiffness + before, l->stiffness + k, sizeof *l->stiffness);
         assert_memory_equal(whole->rest_length + before, l->rest_length + k, sizeof *l->rest_length);
-        const double viscosity = l->viscosity != NULL ? l->viscosity[k] : 0.0;
-        assert_memory_equal(whole->viscosity + before, &viscosity, sizeof viscosity);
+        const double viscosity = l->viscosity != NULL ? l->viscosity[k] : 0.0, none = 0.0;
+        assert_memory_equal(whole->viscosity != NULL ? whole->viscosity + before : &none, &viscosity, sizeof viscosity);
         before++;
     }
     return before;
@@ -221,7 +336,7 @@ static void check_slabs(const deck *whole, const deck *slabs)
 {
     size_t size;
     void *recipe = deck_slabs_recipe(&size, &slabs->slabs, slabs->echo);
-    dem_index n_nodes = 0, n_springs = 0;
+    dem_index n_nodes = 0, n_springs = 0, n_triangles = 0;
     assert_non_null(recipe);
     for (dem_index part = 0; part < slabs->slabs.n; part++) {
         CLEANUP(dem_slab_free) dem_slab slab = dem_slab_empty();
@@ -229,18 +344,19 @@ static void check_slabs(const deck *whole, const deck *slabs)
         assert_int_equal(slab.first_node, n_nodes);
         check_nodes(&whole->lattice, &slab);
         check_rim(&whole->lattice, &slab);
-        check_triangles(&whole->lattice, &slab);
         n_nodes += slab.n_own;
+        n_triangles = check_triangles(&whole->lattice, &slab, n_triangles);
         n_springs = check_springs(&whole->lattice, &slab, n_springs);
     }
     assert_int_equal(n_nodes, whole->lattice.n_nodes);
     assert_int_equal(n_springs, whole->lattice.n_springs);
+    assert_int_equal(n_triangles, whole->lattice.n_triangles);
     free(recipe);
 }
 
 TEST(slabs_have_the_facts_and_the_nodes_of_the_whole)
 {
-    put_image(folder_file(&scratch, "a.pgm"));
+    put_files();
     for (int k = 0; k < N_SUITED; k++) {
         CLEANUP(deck_free) deck whole = read_in(0, suited[k]);
         for (dem_index n = 1; n <= MOST_SLABS; n++) {
@@ -254,6 +370,7 @@ TEST(slabs_have_the_facts_and_the_nodes_of_the_whole)
             check_slabs(&whole, &slabs);
         }
     }
+    assert_true(n_gaps > 0);
 }
 
 TEST(what_asks_for_more_is_built_as_a_whole)
@@ -280,6 +397,114 @@ TEST(what_asks_for_more_is_built_as_a_whole)
         assert_false(d.slabs.are_made);
         assert_true(d.lattice.n_nodes > 0);
     }
+}
+
+/* A file that is changed as one says, and put into a deck, is made by no rank. */
+static void check_unsuited(const char *text, void (*change)(dem_lattice *l))
+{
+    CLEANUP(deck_free) deck source = read_in(0, text);
+    change(&source.lattice);
+    const char *path = folder_at(&scratch, "b.vtkhdf");
+    put_lattice(path, &source.lattice);
+    CLEANUP(deck_free) deck d = read_in(3, RUN "&body shape = 'file', file = 'b.vtkhdf', disconnected = 'keep' /\n");
+    assert_false(d.slabs.are_made);
+    assert_true(d.lattice.n_nodes > 0);
+    assert_int_equal(unlink(path), 0);
+}
+
+static void leave(__attribute__((unused)) dem_lattice *l)
+{
+}
+
+static void displace(dem_lattice *l)
+{
+    l->position = malloc(2 * (size_t)l->n_nodes * sizeof *l->position);
+    assert_non_null(l->position);
+    memcpy(l->position, l->x, 2 * (size_t)l->n_nodes * sizeof *l->position);
+    l->position[40] += 1e-9;
+}
+
+/* Changes the first spring for the last one. */
+static void disorder(dem_lattice *l)
+{
+    const dem_index last = l->n_springs - 1;
+    double *arrays[] = {l->rest_length, l->stiffness, l->viscosity};
+    for (int c = 0; c < 2; c++) {
+        const dem_index kept = l->ends[c];
+        l->ends[c] = l->ends[2 * last + c];
+        l->ends[2 * last + c] = kept;
+    }
+    for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++) {
+        const double kept = arrays[a][0];
+        arrays[a][0] = arrays[a][last];
+        arrays[a][last] = kept;
+    }
+}
+
+static void exclude(dem_lattice *l)
+{
+    ok(dem_lattice_exclude(l, (const dem_index[]){0}, 1));
+}
+
+static void stiffen(dem_lattice *l)
+{
+    ok(dem_lattice_stiffen(l, DEM_GUIDE_NONE));
+}
+
+/* It keeps its springs. */
+static void bare(dem_lattice *l)
+{
+    l->n_triangles -= 3;
+}
+
+static void forget_moduli(dem_lattice *l)
+{
+    free(l->modulus);
+    l->modulus = NULL;
+}
+
+TEST(unusual_lattice_files_are_built_as_a_whole)
+{
+    static const char disc[] = RUN "&body shape = 'disc', radius = 0.03, spacing = 5e-3, outline = 'lattice' /\n";
+    static const char brittle[] =
+        "&run t_end = 1 /\n&material youngs_modulus = 1e7, density = 1000, fracture = 'stress', strength = 1e5 /\n"
+        "&body shape = 'disc', radius = 0.03, spacing = 5e-3, outline = 'lattice' /\n";
+    static const char two[] = RUN "&body shape = 'disc', radius = 0.03, spacing = 5e-3, outline = 'lattice' /\n"
+                                  "&body shape = 'disc', radius = 0.03, spacing = 5e-3, outline = 'lattice', "
+                                  "position = 0.1, 0 /\n";
+    static const char parts[] = RUN "&body shape = 'rectangle', size = 0.05, 0.1, spacing = 5e-3, outline = 'lattice', "
+                                    "disconnected = 'keep' /\n"
+                                    "&void shape = 'rectangle', size = 0.1, 0.012, centre = 0, 0.05 /\n";
+    const struct {
+        const char *text;
+        void (*change)(dem_lattice *l);
+    } cases[] = {{brittle, leave}, {two, leave}, {parts, leave},  {disc, displace},     {disc, disorder},
+                 {disc, exclude},  {disc, bare}, {disc, stiffen}, {disc, forget_moduli}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) check_unsuited(cases[k].text, cases[k].change);
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
+    CLEANUP(deck_free) deck d;
+    const char *path = folder_at(&scratch, "a.nml");
+    static const char scaled[] = RUN "&solver v_scale = 1 /\n&body shape = 'file', file = 'b.vtkhdf' /\n";
+    file_put(path, scaled, strlen(scaled));
+    assert_int_equal(deck_parse(&d, path, NULL, 0, &errors), DECK_OK);
+    assert_false(deck_slabs_suit(&d.groups));
+    assert_int_equal(unlink(path), 0);
+}
+
+TEST(a_file_of_fewer_nodes_than_ranks_is_built_as_a_whole)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
+    const dem_material any = {
+        .struct_size = sizeof any, .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1e3, .thickness = 1.0};
+    ok(dem_lattice_rectangle(&l, 0.01, 0.01, 0.01));
+    ok(dem_lattice_assemble(&l, &any));
+    const char *path = folder_at(&scratch, "b.vtkhdf");
+    put_lattice(path, &l);
+    CLEANUP(deck_free) deck few = read_in(l.n_nodes, RUN "&body shape = 'file', file = 'b.vtkhdf' /\n");
+    CLEANUP(deck_free) deck many = read_in(l.n_nodes + 1, RUN "&body shape = 'file', file = 'b.vtkhdf' /\n");
+    assert_true(few.slabs.are_made);
+    assert_false(many.slabs.are_made);
+    assert_int_equal(unlink(path), 0);
 }
 
 /* The whole names the place, the obstacle and the depth: of a node, and of a point between nodes that lies deeper in
