@@ -17,6 +17,7 @@
 #include "allocations.h"
 #include "harness/motion.h"
 #include "base/random.h"
+#include "output/slab_file.h"
 
 static bool left_half(void *context, const double *x)
 {
@@ -140,8 +141,12 @@ static dem_status write_and_run(dem_simulation *simulation)
 static dem_status read_slab(void)
 {
     CLEANUP(dem_slab_free) dem_slab slab = dem_slab_empty();
-    const dem_status status = dem_slab_read(&slab, "fault.vtkhdf", 1, 3);
+    CLEANUP(dem_slab_free) dem_slab range = dem_slab_empty();
+    CLEANUP(free_memory) dem_index *spans = NULL;
+    dem_status status = dem_slab_read(&slab, "fault.vtkhdf", 1, 3);
     assert_true(status == DEM_OK || (slab.lattice.x == NULL && slab.rim == NULL));
+    if (status == DEM_OK) status = dem_private_slab_of_file(&range, "fault.vtkhdf", &spans, 2, 9);
+    assert_true(status == DEM_OK || (range.lattice.x == NULL && range.rim_boundary == NULL));
     return status;
 }
 
