@@ -195,39 +195,43 @@ static bool is_older(const hdf5_file *file, const struct array *a)
     return flags_of(a) != NULL && !hdf5_has(file, a->name);
 }
 
-/* What is hidden is made of what is broken, where the file has only that.
- * \param data  for the rows of a frame of the target */
-static dem_status copy_frame(const frame_arrays_copying *c, int array, hsize_t from, hsize_t to, void *data)
+/* Numbers that are unpacked. What is hidden is made of what is broken, where the file has only that. */
+static dem_status copy_numbers(const frame_arrays_copying *c, int array, const hdf5_rows *source, hdf5_span rows)
 {
-    const struct array *a = &arrays[array];
-    hdf5_rows rows = frame_arrays_rows(c->whole, array);
-    const hdf5_rows out = frame_arrays_rows(c->target, array);
-    const hsize_t all = (hsize_t)frame_arrays_count(c->whole, a->of);
-    const hsize_t n = (hsize_t)frame_arrays_count(c->target, a->of);
-    const bool older = is_older(c->from, a);
-    if (older) rows.name = flags_of(a);
-    TRY(hdf5_read(c->from, &rows, all * from + (hsize_t)c->first[a->of], n, data));
-    if (older) hide((dem_index)n, data, data);
-    return hdf5_append(c->to, &out, n * to, n, data);
-}
-
-static dem_status copy_array(const frame_arrays_copying *c, int array, hdf5_span span)
-{
-    const dem_index n = frame_arrays_count(c->target, arrays[array].of);
-    dem_status status = DEM_OK;
-    if (n == 0) return DEM_OK;
-    void *data = malloc((size_t)n * frame_arrays_row_bytes(array));
-    CHECK(data != NULL, DEM_ERROR_MEMORY, "out of memory for a frame of %lld rows", (long long)n);
-    for (hsize_t k = 0; k < span.count && status == DEM_OK; k++)
-        status = copy_frame(c, array, span.first + k, span.at + k, data);
+    const hdf5_rows target = frame_arrays_rows(c->target, array);
+    const bool hides = strcmp(source->name, target.name) != 0;
+    void *data = malloc((size_t)rows.count * frame_arrays_row_bytes(array));
+    CHECK(data != NULL, DEM_ERROR_MEMORY, "out of memory for %llu rows of a frame", (unsigned long long)rows.count);
+    dem_status status = hdf5_read(c->from, source, rows.first, rows.count, data);
+    if (status == DEM_OK && hides) hide((dem_index)rows.count, data, data);
+    if (status == DEM_OK) status = hdf5_append(c->to, &target, rows.at, rows.count, data);
     free(data);
     return status;
+}
+
+/* As it is stored, if both files have it as a chunk. */
+static dem_status copy_frame(const frame_arrays_copying *c, int array, hsize_t from, hsize_t to)
+{
+    const struct array *a = &arrays[array];
+    const hsize_t all = (hsize_t)frame_arrays_count(c->whole, a->of);
+    const hsize_t n = (hsize_t)frame_arrays_count(c->target, a->of);
+    const hdf5_rows target = frame_arrays_rows(c->target, array);
+    const hdf5_span rows = {all * from + (hsize_t)c->first[a->of], n, n * to};
+    hdf5_rows source = frame_arrays_rows(c->whole, array);
+    bool is_done = false;
+    if (n == 0) return DEM_OK;
+    if (is_older(c->from, a))
+        source.name = flags_of(a);
+    else
+        TRY(hdf5_copy_chunk(c->from, c->to, &source, &target, rows, &is_done));
+    return is_done ? DEM_OK : copy_numbers(c, array, &source, rows);
 }
 
 dem_status frame_arrays_copy(const frame_arrays_copying *c, hdf5_span span)
 {
     for (int k = 0; k < FRAME_ARRAYS; k++)
-        if (frame_arrays_is_wanted(c->target, k)) TRY(copy_array(c, k, span));
+        for (hsize_t n = 0; n < span.count && frame_arrays_is_wanted(c->target, k); n++)
+            TRY(copy_frame(c, k, span.first + n, span.at + n));
     return DEM_OK;
 }
 

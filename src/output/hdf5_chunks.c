@@ -167,6 +167,31 @@ dem_status hdf5_chunks_unpack(hid_t dataset, const hsize_t *start, const hsize_t
     return whole ? DEM_OK : DEM_ERROR_IO;
 }
 
+/* Whether the chunk at row `first` has just so many rows, by HDF5's filters shuffle and deflate. */
+static bool is_packed_chunk(hid_t dataset, const chunk_form *f, hsize_t first, hsize_t rows)
+{
+    const hsize_t at[HDF5_MAX_RANK] = {first}, size = f->rank > 0 ? bytes_stored(dataset, at) : 0;
+    return f->n_filters == 2 && f->deflate == 1 && f->extent[0] == rows && first % rows == 0 && size > 0 &&
+           size <= bytes_of_file(dataset) && size <= UINT_MAX;
+}
+
+dem_status hdf5_chunks_fetch(hid_t dataset, hsize_t first, hsize_t rows, unsigned char **bytes, size_t *size)
+{
+    const chunk_form f = form_of(dataset);
+    const hsize_t at[HDF5_MAX_RANK] = {first};
+    uint32_t left_out = 0;
+    *bytes = NULL;
+    if (!is_packed_chunk(dataset, &f, first, rows)) return DEM_OK;
+    *size = (size_t)bytes_stored(dataset, at);
+    *bytes = malloc(*size);
+    CHECK(*bytes != NULL, DEM_ERROR_MEMORY, "out of memory for a chunk of %zu bytes", *size);
+    const bool is_read = H5Dread_chunk(dataset, H5P_DEFAULT, at, &left_out, *bytes) >= 0;
+    if (is_read && left_out == 0 && count_inflated(*bytes, *size, UINT64_MAX) >= f.bytes) return DEM_OK;
+    free(*bytes);
+    *bytes = NULL;
+    return is_read && left_out != 0 ? DEM_OK : DEM_ERROR_IO;
+}
+
 /* Of each read that converts numbers HDF5 fills a buffer of 1 MiB with zeros, which takes longer than few numbers do,
  * unless less is asked for: for a number it needs no more than 16 bytes. */
 static hid_t make_transfer(const hsize_t *count, int rank)

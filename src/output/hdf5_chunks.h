@@ -27,6 +27,12 @@ dem_status hdf5_chunks_check(const char *path, const char *name, hid_t dataset, 
  *  \return DEM_ERROR_IO, without a message, if one is damaged or holds less than its extent; DEM_ERROR_MEMORY */
 dem_status hdf5_chunks_unpack(hid_t dataset, const hsize_t *start, const hsize_t *count, bool *all);
 
+/** Reads what is stored of a chunk, shuffled and deflated, and unpacks that to the end, likewise.
+ *  \param first      row of the dataset with which the chunk begins, if there is one of just so many rows
+ *  \param[out] bytes [*size] to be freed; NULL: there is no such chunk, or it is stored in another way
+ *  \return DEM_ERROR_IO, without a message, if it is damaged or holds less than its extent; DEM_ERROR_MEMORY */
+dem_status hdf5_chunks_fetch(hid_t dataset, hsize_t first, hsize_t rows, unsigned char **bytes, size_t *size);
+
 /** Reads `count` [rank] numbers in each dimension from `start` [rank] on.
  *  \return negative on failure */
 herr_t hdf5_chunks_read(hid_t dataset, hid_t type, const hsize_t *start, const hsize_t *count, int rank, void *buffer);

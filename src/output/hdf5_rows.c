@@ -244,6 +244,24 @@ dem_status hdf5_read(const hdf5_file *file, const hdf5_rows *rows, hsize_t first
     return status;
 }
 
+/* What is stored is the same for any reader, whoever has packed it. */
+dem_status hdf5_copy_chunk(const hdf5_file *from, const hdf5_file *to, const hdf5_rows *source, const hdf5_rows *target,
+                           hdf5_span span, bool *is_done)
+{
+    deflated_run chunk = {0};
+    *is_done = false;
+    if (!hdf5_packs(target) || target->chunk != span.count) return DEM_OK;
+    const hid_t dataset = kept_datasets_open(from->kept, from->id, source->name);
+    if (dataset < 0) return hdf5_fail(from, source->name, "cannot be read");
+    dem_status status = hdf5_chunks_fetch(dataset, span.first, span.count, &chunk.bytes, &chunk.n);
+    if (status == DEM_ERROR_IO) status = hdf5_fail(from, source->name, "cannot be read");
+    (void)kept_datasets_leave(from->kept, dataset);
+    *is_done = chunk.bytes != NULL;
+    if (status == DEM_OK && *is_done) status = hdf5_append_packed(to, target, span.at, &chunk);
+    free(chunk.bytes);
+    return status;
+}
+
 /* A chunk at a time. Numbers pass through the types in memory, which hold those of every kind exactly. */
 dem_status hdf5_copy(const hdf5_file *from, const hdf5_file *to, const hdf5_rows *rows, hdf5_span span)
 {

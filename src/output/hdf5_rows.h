@@ -59,6 +59,12 @@ dem_status hdf5_map(const hdf5_file *file, const hdf5_rows *rows, hsize_t count,
 /** Reads `count` existing rows from row `first` on. */
 dem_status hdf5_read(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, void *data);
 
+/** Copies rows to the end of a dataset of another file, which are a chunk of both, as they are stored.
+ *  \param source, target  one of each file
+ *  \param[out] is_done    false: they are no such chunk, and nothing has been done */
+dem_status hdf5_copy_chunk(const hdf5_file *from, const hdf5_file *to, const hdf5_rows *source, const hdf5_rows *target,
+                           hdf5_span span, bool *is_done);
+
 /** Copies rows of a dataset to the end of that in another file, a chunk at a time. */
 dem_status hdf5_copy(const hdf5_file *from, const hdf5_file *to, const hdf5_rows *rows, hdf5_span span);
 

@@ -110,3 +110,86 @@ TEST_WITH(an_attribute_of_more_numbers_than_one_is_refused, open_file, close_fil
     assert_ok(hdf5_write_attribute(&s->file, "/", "n", HDF5_I64, 64, numbers));
     assert_int_equal(hdf5_expect_attribute(&s->file, "/", "n", 5), DEM_ERROR_IO);
 }
+
+/* ---- copies ---- */
+
+static const hdf5_rows target = {"/y", HDF5_F64, 1, {0}, ROWS, 1};
+
+/* By another level than the target's. \return bytes */
+static size_t pack(unsigned char *packed, size_t room)
+{
+    static unsigned char numbers[ROWS * sizeof(double)];
+    uLongf size = room;
+    for (size_t k = 0; k < sizeof numbers; k++) numbers[k] = (unsigned char)(k * k % 251);
+    assert_int_equal(compress2(packed, &size, numbers, sizeof numbers, 9), Z_OK);
+    return size;
+}
+
+static size_t stored_bytes(const stored *s, const char *name, unsigned char *out)
+{
+    const hsize_t start = 0;
+    hsize_t size = 0;
+    uint32_t left_out = 1;
+    const hid_t dataset = H5Dopen2(s->file.id, name, H5P_DEFAULT);
+    assert_true(H5Dget_chunk_storage_size(dataset, &start, &size) >= 0);
+    assert_true(H5Dread_chunk(dataset, H5P_DEFAULT, &start, &left_out, out) >= 0);
+    assert_int_equal(left_out, 0);
+    (void)H5Dclose(dataset);
+    return (size_t)size;
+}
+
+static bool is_copied(const stored *s, const hdf5_rows *source, hdf5_span span)
+{
+    bool is_done = true;
+    assert_ok(hdf5_copy_chunk(&s->file, &s->file, source, &target, span, &is_done));
+    return is_done;
+}
+
+TEST_WITH(a_packed_chunk_is_copied_as_it_is_stored, open_file, close_file)
+{
+    static unsigned char packed[2 * ROWS * sizeof(double)], copy[sizeof packed];
+    static double numbers[ROWS], copied[ROWS];
+    const stored *s = *test_state;
+    const size_t size = pack(packed, sizeof packed);
+    const hdf5_rows source = make(s, 1, 0, packed, size);
+    assert_ok(hdf5_create(&s->file, &target));
+    assert_true(is_copied(s, &source, (hdf5_span){0, ROWS, 0}));
+    assert_int_equal(stored_bytes(s, "/y", copy), size);
+    assert_memory_equal(copy, packed, size);
+    assert_ok(hdf5_read(&s->file, &source, 0, ROWS, numbers));
+    assert_ok(hdf5_read(&s->file, &target, 0, ROWS, copied));
+    assert_memory_equal(copied, numbers, sizeof numbers);
+}
+
+/* The last byte is of the checksum, which no reader of a part of the rows would see. */
+TEST_WITH(a_damaged_chunk_is_not_copied, open_file, close_file)
+{
+    static unsigned char packed[2 * ROWS * sizeof(double)];
+    const stored *s = *test_state;
+    const size_t size = pack(packed, sizeof packed);
+    bool is_done;
+    packed[size - 1] ^= 1;
+    const hdf5_rows source = make(s, 1, 0, packed, size);
+    assert_ok(hdf5_create(&s->file, &target));
+    assert_int_equal(hdf5_copy_chunk(&s->file, &s->file, &source, &target, (hdf5_span){0, ROWS, 0}, &is_done),
+                     DEM_ERROR_IO);
+    assert_non_null(strstr(dem_status_message(), "/x: cannot be read"));
+}
+
+TEST_WITH(what_is_stored_in_another_way_is_left_to_others, open_file, close_file)
+{
+    static double numbers[ROWS];
+    static unsigned char packed[2 * ROWS * sizeof(double)];
+    const stored *s = *test_state;
+    const size_t size = pack(packed, sizeof packed);
+    assert_ok(hdf5_create(&s->file, &target));
+    hdf5_rows source = make(s, 1, DEFLATE | 1, numbers, sizeof numbers);
+    assert_false(is_copied(s, &source, (hdf5_span){0, ROWS, 0}));
+    assert_true(H5Ldelete(s->file.id, "/x", H5P_DEFAULT) >= 0);
+    source = make(s, 0, 0, numbers, sizeof numbers);
+    assert_false(is_copied(s, &source, (hdf5_span){0, ROWS, 0}));
+    assert_true(H5Ldelete(s->file.id, "/x", H5P_DEFAULT) >= 0);
+    source = make(s, 1, 0, packed, size);
+    assert_false(is_copied(s, &source, (hdf5_span){0, ROWS / 2, 0}));
+    assert_false(is_copied(s, &source, (hdf5_span){1, ROWS, 0}));
+}
