@@ -207,10 +207,27 @@ static dem_index count_nodes(const maker *m)
     return deck_slabs_nodes(m->groups, m->bodies, schema_count(m->groups, "body"));
 }
 
-/* Of n nodes. */
+/* Of n nodes those of rank 0. It keeps of a frame what arrays are packed to, which takes as much memory as an 80th of
+ * all nodes do where they are own ones (docs/performance.md): so that no rank takes more than others, it has so many
+ * nodes less than they, but a quarter of the mean at least. */
+static dem_index first_share(dem_index n, dem_index n_parts)
+{
+    enum { PACKED = 80, LEAST = 4 };
+    const dem_index share = (n + n / PACKED) / n_parts - n / PACKED, least = n / (LEAST * n_parts);
+    return share > least ? share : least;
+}
+
+/* The first of n nodes that is of a part; n behind the last one. */
+static dem_index first_of(dem_index n, dem_index part, dem_index n_parts)
+{
+    const dem_index of_first = first_share(n, n_parts);
+    if (part == 0 || part == n_parts) return part == 0 ? 0 : n;
+    return of_first + (part - 1) * (n - of_first) / (n_parts - 1);
+}
+
 static body_range part_of(dem_index n, dem_index part, dem_index n_parts)
 {
-    return (body_range){part * n / n_parts, (part + 1) * n / n_parts};
+    return (body_range){first_of(n, part, n_parts), first_of(n, part + 1, n_parts)};
 }
 
 /* Own nodes that are held may not touch. The flags of all slabs are written out where there are any. */
