@@ -358,18 +358,18 @@ static bool is_strained(const report *r)
 
 static void print_node_peaks(const report *r, const dem_model *model, dem_index most, dem_index *list)
 {
-    const dem_index n = dem_peaks_most_stressed_nodes(r->peaks, most, list);
-    dem_node_peak *peaks = calloc((size_t)n + 1, sizeof *peaks);
-    const bool good = peaks != NULL && dem_private_peaks_pick_nodes(r->peaks, list, n, peaks) == DEM_OK;
+    dem_index n = most;
+    dem_node_peak *peaks = calloc((size_t)most + 1, sizeof *peaks);
+    const bool good = peaks != NULL && dem_private_peaks_largest_nodes(r->peaks, &n, list, peaks) == DEM_OK;
     for (dem_index k = 0; k < n && good; k++) print_node_peak(r, model, list[k], &peaks[k]);
     free(peaks);
 }
 
 static void print_spring_peaks(const report *r, const dem_model *model, dem_index most, dem_index *list)
 {
-    const dem_index n = dem_peaks_most_strained_springs(r->peaks, most, list);
-    dem_spring_peak *peaks = calloc((size_t)n + 1, sizeof *peaks);
-    const bool good = peaks != NULL && dem_private_peaks_pick_springs(r->peaks, list, n, peaks) == DEM_OK;
+    dem_index n = most;
+    dem_spring_peak *peaks = calloc((size_t)most + 1, sizeof *peaks);
+    const bool good = peaks != NULL && dem_private_peaks_largest_springs(r->peaks, &n, list, peaks) == DEM_OK;
     for (dem_index k = 0; k < n && good; k++) print_spring_peak(r, model, list[k], &peaks[k]);
     free(peaks);
 }

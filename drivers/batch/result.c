@@ -222,10 +222,9 @@ static void write_broken(json *j, const fracture_report *first, const dem_simula
 
 static void write_node_peak(json *j, const report *r, const dem_model *model)
 {
-    dem_index node;
-    if (dem_peaks_most_stressed_nodes(r->peaks, 1, &node) == 0) return;
+    dem_index n = 1, node;
     dem_node_peak peak;
-    if (dem_private_peaks_pick_nodes(r->peaks, &node, 1, &peak) != DEM_OK) return;
+    if (dem_private_peaks_largest_nodes(r->peaks, &n, &node, &peak) != DEM_OK || n == 0) return;
     json_open(j, "most_stressed", '{');
     json_integer(j, "node", node);
     json_real(j, "von_mises", peak.von_mises);
@@ -238,10 +237,9 @@ static void write_node_peak(json *j, const report *r, const dem_model *model)
 
 static void write_spring_peak(json *j, const report *r)
 {
-    dem_index spring;
-    if (dem_peaks_most_strained_springs(r->peaks, 1, &spring) == 0) return;
+    dem_index n = 1, spring;
     dem_spring_peak peak;
-    if (dem_private_peaks_pick_springs(r->peaks, &spring, 1, &peak) != DEM_OK) return;
+    if (dem_private_peaks_largest_springs(r->peaks, &n, &spring, &peak) != DEM_OK || n == 0) return;
     write_extreme(j, "most_strained", peak.strain, spring, peak.t);
 }
 

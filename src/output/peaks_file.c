@@ -119,13 +119,14 @@ static dem_status write_node_rows(const hdf5_file *file, const peaks_report *r, 
     return write_column(file, "/most_stressed/nodes/stress", n, 3, column);
 }
 
-static dem_status write_node_list(const hdf5_file *file, const peaks_report *r, dem_index *list, double *column)
+static dem_status write_node_list(const hdf5_file *file, const peaks_report *r, dem_index most, dem_index *list,
+                                  double *column)
 {
-    const dem_index n = dem_peaks_most_stressed_nodes(r->peaks, r->most, list);
-    dem_node_peak *peak = malloc((size_t)(n + 1) * sizeof *peak);
+    rows_pick picked = {sizeof(dem_node_peak), list, most, NULL};
+    dem_node_peak *peak = malloc((size_t)(most + 1) * sizeof *peak);
     CHECK_MEMORY(peak);
-    const rows_pick picked = {sizeof *peak, list, n, peak};
-    dem_status status = dem_private_peaks_pick_nodes(r->peaks, list, n, peak);
+    picked.out = peak;
+    dem_status status = dem_private_peaks_largest_nodes(r->peaks, &picked.n, list, peak);
     if (status == DEM_OK) status = write_node_rows(file, r, &picked, column);
     free(peak);
     return status;
@@ -164,13 +165,14 @@ static dem_status write_spring_rows(const hdf5_file *file, const peaks_report *r
     return write_column(file, "/most_stressed/springs/force", n, 1, column);
 }
 
-static dem_status write_spring_list(const hdf5_file *file, const peaks_report *r, dem_index *list, double *column)
+static dem_status write_spring_list(const hdf5_file *file, const peaks_report *r, dem_index most, dem_index *list,
+                                    double *column)
 {
-    const dem_index n = dem_peaks_most_strained_springs(r->peaks, r->most, list);
-    dem_spring_peak *peak = malloc((size_t)(n + 1) * sizeof *peak);
+    rows_pick picked = {sizeof(dem_spring_peak), list, most, NULL};
+    dem_spring_peak *peak = malloc((size_t)(most + 1) * sizeof *peak);
     CHECK_MEMORY(peak);
-    const rows_pick picked = {sizeof *peak, list, n, peak};
-    dem_status status = dem_private_peaks_pick_springs(r->peaks, list, n, peak);
+    picked.out = peak;
+    dem_status status = dem_private_peaks_largest_springs(r->peaks, &picked.n, list, peak);
     if (status == DEM_OK) status = write_spring_rows(file, r, &picked, column);
     free(peak);
     return status;
@@ -182,14 +184,14 @@ dem_status peaks_file_write_lists(const hdf5_file *file, const peaks_report *rep
     const dem_index n = report->lattice.lattice->n_nodes, m = report->lattice.lattice->n_springs,
                     largest = n > m ? n : m;
     /* One more, so that nothing is allocated without bytes. */
-    const size_t most = (size_t)(report->most < largest ? report->most : largest) + 1;
-    dem_index *list = malloc(most * sizeof *list);
-    double *column = malloc(3 * most * sizeof *column);
+    const dem_index most = report->most < largest ? report->most : largest;
+    dem_index *list = malloc((size_t)(most + 1) * sizeof *list);
+    double *column = malloc(3 * (size_t)(most + 1) * sizeof *column);
     dem_status status = DEM_OK;
     if (list == NULL || column == NULL)
         status = status_fail(DEM_ERROR_MEMORY, "out of memory for the %lld most stressed", (long long)report->most);
-    if (status == DEM_OK) status = write_node_list(file, report, list, column);
-    if (status == DEM_OK) status = write_spring_list(file, report, list, column);
+    if (status == DEM_OK) status = write_node_list(file, report, most, list, column);
+    if (status == DEM_OK) status = write_spring_list(file, report, most, list, column);
     free(list);
     free(column);
     return status;

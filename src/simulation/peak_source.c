@@ -5,7 +5,9 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "base/status.h"
 #include "simulation/leader_peaks.h"
 
 /* ---- chunk by chunk ---- */
@@ -22,48 +24,42 @@ dem_status dem_private_peaks_visit_springs(const dem_peaks *p, rows_taker *take,
     return rows_hand_over(p->springs, sizeof *p->springs, p->n_springs, take, context);
 }
 
-dem_status dem_private_peaks_pick_nodes(const dem_peaks *p, const dem_index *list, dem_index n, dem_node_peak *out)
-{
-    rows_pick pick = {sizeof *out, list, n, out};
-    return dem_private_peaks_visit_nodes(p, rows_taker_pick, &pick);
-}
-
-dem_status dem_private_peaks_pick_springs(const dem_peaks *p, const dem_index *list, dem_index n, dem_spring_peak *out)
-{
-    rows_pick pick = {sizeof *out, list, n, out};
-    return dem_private_peaks_visit_springs(p, rows_taker_pick, &pick);
-}
-
 /* ---- the largest ---- */
 
 /* The n largest so far, those of equal size in the order of their numbers. */
 typedef struct ranking {
-    double (*size_of)(const void *rows, dem_index k);
+    double (*size_of)(const void *peak);
+    size_t row; /* bytes */
     dem_index n, filled;
     dem_index *list; /* [n] numbers, the largest first, */
-    double *size;    /* [n] and their sizes */
+    char *peaks;     /* [n][row] and what they have */
 } ranking;
 
-static double node_size(const void *rows, dem_index k)
+static double node_size(const void *peak)
 {
-    return ((const dem_node_peak *)rows)[k].von_mises;
+    return ((const dem_node_peak *)peak)->von_mises;
 }
 
-static double spring_size(const void *rows, dem_index k)
+static double spring_size(const void *peak)
 {
-    return fabs(((const dem_spring_peak *)rows)[k].strain);
+    return fabs(((const dem_spring_peak *)peak)->strain);
+}
+
+static char *peak_at(const ranking *r, dem_index q)
+{
+    return r->peaks + (size_t)q * r->row;
 }
 
 /* Into a list that descends. With n small all is one pass. */
-static void insert(ranking *r, dem_index number, double size)
+static void insert(ranking *r, dem_index number, const void *peak)
 {
     dem_index q = r->filled < r->n ? r->filled++ : r->n - 1;
-    for (; q > 0 && r->size[q - 1] < size; q--) {
+    for (; q > 0 && r->size_of(peak_at(r, q - 1)) < r->size_of(peak); q--) {
         r->list[q] = r->list[q - 1];
-        r->size[q] = r->size[q - 1];
+        memcpy(peak_at(r, q), peak_at(r, q - 1), r->row);
     }
     r->list[q] = number;
-    r->size[q] = size;
+    memcpy(peak_at(r, q), peak, r->row);
 }
 
 /* Entries of size 0 have no peak. */
@@ -71,21 +67,12 @@ static dem_status rank(void *context, dem_index first, dem_index n, const void *
 {
     ranking *r = context;
     for (dem_index k = 0; k < n; k++) {
-        const double size = r->size_of(rows, k);
-        if (size > 0.0 && !(r->filled == r->n && size <= r->size[r->n - 1])) insert(r, first + k, size);
+        const void *peak = (const char *)rows + (size_t)k * r->row;
+        const double size = r->size_of(peak);
+        const bool is_small = r->filled == r->n && size <= r->size_of(peak_at(r, r->n - 1));
+        if (size > 0.0 && !is_small) insert(r, first + k, peak);
     }
     return DEM_OK;
-}
-
-typedef dem_status visitor(const dem_peaks *p, rows_taker *take, void *context);
-
-static dem_index find_largest(const dem_peaks *p, visitor *visit, ranking r)
-{
-    if (r.n <= 0) return 0;
-    r.size = malloc((size_t)r.n * sizeof *r.size);
-    const bool good = r.size != NULL && visit(p, rank, &r) == DEM_OK;
-    free(r.size);
-    return good ? r.filled : 0;
 }
 
 /* As many as there are, at most. */
@@ -94,14 +81,38 @@ static dem_index bound(dem_index n, dem_index all)
     return n < all ? n : all;
 }
 
+dem_status dem_private_peaks_largest_nodes(const dem_peaks *p, dem_index *n, dem_index *list, dem_node_peak *peaks)
+{
+    ranking r = {node_size, sizeof *peaks, bound(*n, p->n_nodes), 0, list, (char *)peaks};
+    *n = 0;
+    if (r.n > 0) TRY(dem_private_peaks_visit_nodes(p, rank, &r));
+    *n = r.filled;
+    return DEM_OK;
+}
+
+dem_status dem_private_peaks_largest_springs(const dem_peaks *p, dem_index *n, dem_index *list, dem_spring_peak *peaks)
+{
+    ranking r = {spring_size, sizeof *peaks, bound(*n, p->n_springs), 0, list, (char *)peaks};
+    *n = 0;
+    if (r.n > 0) TRY(dem_private_peaks_visit_springs(p, rank, &r));
+    *n = r.filled;
+    return DEM_OK;
+}
+
 dem_index dem_peaks_most_stressed_nodes(const dem_peaks *p, dem_index n, dem_index *list)
 {
-    return find_largest(p, dem_private_peaks_visit_nodes,
-                        (ranking){.size_of = node_size, .n = bound(n, p->n_nodes), .list = list});
+    n = bound(n, p->n_nodes);
+    dem_node_peak *peaks = n > 0 ? malloc((size_t)n * sizeof *peaks) : NULL;
+    const bool good = peaks != NULL && dem_private_peaks_largest_nodes(p, &n, list, peaks) == DEM_OK;
+    free(peaks);
+    return good ? n : 0;
 }
 
 dem_index dem_peaks_most_strained_springs(const dem_peaks *p, dem_index n, dem_index *list)
 {
-    return find_largest(p, dem_private_peaks_visit_springs,
-                        (ranking){.size_of = spring_size, .n = bound(n, p->n_springs), .list = list});
+    n = bound(n, p->n_springs);
+    dem_spring_peak *peaks = n > 0 ? malloc((size_t)n * sizeof *peaks) : NULL;
+    const bool good = peaks != NULL && dem_private_peaks_largest_springs(p, &n, list, peaks) == DEM_OK;
+    free(peaks);
+    return good ? n : 0;
 }
