@@ -176,10 +176,10 @@ static void shuffle_slice(const void *context, int slice, int thread)
     }
 }
 
-dem_status deflater_pack(deflater *d, deflater_numbers numbers, int n_planes, int level, team *t)
+dem_status deflater_pack(deflater *d, deflater_numbers slices, int n_planes, int level, team *t)
 {
-    const packing p = {d, numbers, numbers.rows * numbers.columns};
-    d->n_slices = (int)((numbers.rows + DEFLATER_SLICE - 1) / DEFLATER_SLICE);
+    const packing p = {d, slices, slices.rows * slices.columns};
+    d->n_slices = (int)((slices.rows + DEFLATER_SLICE - 1) / DEFLATER_SLICE);
     d->n_planes = n_planes;
     TRY(prepare(&p, level));
     team_run(t, d->n_slices, shuffle_slice, &p);

@@ -25,14 +25,14 @@ static dem_status carry_out(const field_order *o, const char *rows, dem_index n)
     return field_order_end(o, 0);
 }
 
-dem_status field_order_give(const dem_simulation *s, const field_order *given)
+dem_status field_order_give(const dem_simulation *simulation, const field_order *o)
 {
-    field_order o = *given;
+    field_order own = *o;
     void *rows = NULL;
-    if (s->leads != NULL) return led_run_order(s, &o);
-    o.kept = &((dem_simulation *)s)->kept;
-    dem_status status = field_rows_make(s, o.field, &rows);
-    if (status == DEM_OK) status = carry_out(&o, rows, field_rows_count(s, o.field));
+    if (simulation->leads != NULL) return led_run_order(simulation, o);
+    own.kept = &((dem_simulation *)simulation)->kept;
+    dem_status status = field_rows_make(simulation, o->field, &rows);
+    if (status == DEM_OK) status = carry_out(&own, rows, field_rows_count(simulation, o->field));
     free(rows);
     return status;
 }
