@@ -194,18 +194,6 @@ static double fastest_of(const double *v, dem_index first, dem_index end)
     return largest;
 }
 
-double diagnostics_inertia(const dem_model *model, const double *x, dem_index body, const double *centre)
-{
-    const dem_lattice *l = &model->lattice;
-    exact_sum sum = {0};
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        if (l->body[i] != body || !domain_owns(model->domain, i)) continue;
-        const double dx = x[2 * i] - centre[0], dy = x[2 * i + 1] - centre[1];
-        exact_sum_add(&sum, l->mass[i] * (dx * dx + dy * dy));
-    }
-    return reduce_sum(model->ranks, &sum);
-}
-
 double diagnostics_fastest(const dem_model *model, const double *v)
 {
     const dem_index n = model->lattice.n_nodes;

@@ -23,9 +23,6 @@ dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition
  *  largest force of a spring. */
 double diagnostics_residual(const forces *f, const double *x, const double *v, const double *a);
 
-/** Moment of inertia of a body about a place, kg m^2, from positions x [n][2]. */
-double diagnostics_inertia(const dem_model *model, const double *x, dem_index body, const double *centre);
-
 /** The largest |v_x| + |v_y|, of velocities v [n][2]. */
 double diagnostics_fastest(const dem_model *model, const double *v);
 

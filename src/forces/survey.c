@@ -656,3 +656,19 @@ void survey_bodies(survey *s, const double *x, const double *v, dem_body_motion 
     for (dem_index b = 0; b < s->model->n_bodies; b++)
         motion[b].angular_momentum[2] = reduce_sum(s->model->ranks, &s->bodies[b].spin);
 }
+
+void survey_inertia(survey *s, const double *x, const dem_body_motion *motion, double *inertia)
+{
+    const double *mass = s->model->lattice.mass;
+    double terms[RUN_NODES];
+    for (dem_index b = 0; b < s->model->n_bodies; b++) exact_sum_clear(&s->bodies[b].spin);
+    for (const survey_run *r = s->runs; r < s->runs + s->n_runs; r++) {
+        const vec2 centre = vec2_at(motion[r->body].centre, 0);
+        for (dem_index i = r->first; i < r->last; i++) {
+            const vec2 arm = vec2_sub(vec2_at(x, i), centre);
+            terms[i - r->first] = mass[i] * vec2_dot(arm, arm);
+        }
+        exact_sum_add_array(&s->bodies[r->body].spin, terms, r->last - r->first);
+    }
+    for (dem_index b = 0; b < s->model->n_bodies; b++) inertia[b] = reduce_sum(s->model->ranks, &s->bodies[b].spin);
+}

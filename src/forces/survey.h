@@ -66,4 +66,8 @@ void survey_take_motions(survey *s, const double *x, const double *v);
  *  \param x, v  of that state  \param[out] motion  [n_bodies] */
 void survey_bodies(survey *s, const double *x, const double *v, dem_body_motion *motion);
 
+/** Moments of inertia of all bodies about their centres of mass, kg m^2. Collective.
+ *  \param motion  [n_bodies] as survey_bodies() finds it at x  \param[out] inertia  [n_bodies] */
+void survey_inertia(survey *s, const double *x, const dem_body_motion *motion, double *inertia);
+
 #endif

@@ -28,7 +28,7 @@
 /* Results from the state as seen; each is computed once, when it is first asked for. */
 typedef struct run_measures {
     bool has_events, has_state, has_contacts, has_held_forces, has_poses, has_survey, has_stress, has_energy,
-        has_bodies, has_surfaces, has_pairs, has_rigid, has_ghosts, has_elements;
+        has_bodies, has_inertia, has_surfaces, has_pairs, has_rigid, has_ghosts, has_elements;
     dem_index n_contacts;
     const dem_contact *contacts; /* [n_contacts] closed ones */
     dem_energy energy;
@@ -117,7 +117,8 @@ struct dem_simulation {
     run_measures *measures;
     survey *survey;          /* of the state as seen, if `measures` has it */
     stress_field *field;     /* of the same, likewise */
-    dem_body_motion *bodies; /* [bodies] in the state as seen, if `measures` has them */
+    dem_body_motion *bodies; /* [bodies] in the state as seen, if `measures` has them, */
+    double *inertia;         /* [bodies] kg m^2, likewise */
     int unlooked;            /* steps since overlaps were looked for */
     int unlooked_pause;      /* in a pause of the ramps: steps since the residual was looked at */
     dem_index events;

@@ -526,7 +526,9 @@ dem_status dem_simulation_inertia(const dem_simulation *s, dem_index body, doubl
     if (s->leads != NULL) return led_run_ask(s, RANK_CALL_INERTIA, body, inertia);
     TRY(status_check_number("body", body, s->model->n_bodies));
     if (!s->measures->has_bodies) measure_bodies(s);
-    *inertia = diagnostics_inertia(s->model, seen_of(s), body, s->bodies[body].centre);
+    if (!s->measures->has_inertia) survey_inertia(s->survey, seen_of(s), s->bodies, s->inertia);
+    s->measures->has_inertia = true;
+    *inertia = s->inertia[body];
     return DEM_OK;
 }
 

@@ -37,9 +37,10 @@ static dem_status allocate_seen(dem_simulation *s)
     s->survey = calloc(1, sizeof *s->survey);
     s->field = calloc(1, sizeof *s->field);
     s->bodies = calloc((size_t)s->model->n_bodies, sizeof *s->bodies);
+    s->inertia = calloc((size_t)s->model->n_bodies, sizeof *s->inertia);
     if (o->is_asked) s->poses = calloc((size_t)o->n, sizeof *s->poses);
-    CHECK(s->frame && s->measures && s->survey && s->field && s->bodies && (s->poses || !o->is_asked), DEM_ERROR_MEMORY,
-          "out of memory for the state of %lld nodes", (long long)s->model->lattice.n_nodes);
+    CHECK(s->frame && s->measures && s->survey && s->field && s->bodies && s->inertia && (s->poses || !o->is_asked),
+          DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes", (long long)s->model->lattice.n_nodes);
     return DEM_OK;
 }
 
@@ -302,6 +303,7 @@ void dem_simulation_destroy(dem_simulation *s)
     free(s->field);
     free(s->survey);
     free(s->bodies);
+    free(s->inertia);
     free(s->poses);
     dem_checkpoint_destroy(s->checkpoint);
     dem_checkpoint_destroy(s->rollback);

@@ -13,6 +13,7 @@ typedef struct measures {
     dem_energy energy;
     dem_strain strain;
     dem_body_motion body[MEASURE_BODIES];
+    double inertia[MEASURE_BODIES];
 } measures;
 
 static inline measures measure_with(const forces *f, const double *x, const double *v, dem_kernel kind, int n_threads)
@@ -28,6 +29,7 @@ static inline measures measure_with(const forces *f, const double *x, const doub
     m.energy = diagnostics_energy(f, &s, x, v);
     m.strain = s.strain;
     survey_bodies(&s, x, v, m.body);
+    survey_inertia(&s, x, m.body, m.inertia);
     return m;
 }
 
