@@ -28,9 +28,6 @@ typedef enum field_kind {
     FIELD_BROKEN_TRIANGLES   /**< [triangles] unsigned char */
 } field_kind;
 
-/** Rows of a slice, but for the last one of a stripe. */
-enum { FIELD_SLICE = ROWS_CHUNK };
-
 /** An order. The rows of all are divided into stripes, as team_share() does it, each of which one rank writes. */
 typedef struct field_order {
     field_kind field;
@@ -39,11 +36,11 @@ typedef struct field_order {
     const void *what; /**< [size] what is to be made of rows */
     void *target;     /**< on rank 0, for what it writes; NULL elsewhere */
     team *team;       /**< of this rank, whose threads work on it; NULL: the caller alone */
-    void **kept;      /**< of this rank, as rank_order_obey() has it; set by the simulation */
+    void **kept;      /**< of this rank, as rank_order_obey() has it. The simulation sets it, and the team of ranks */
 } field_order;
 
-/** What has been made of whole slices. Those of a stripe are divided into shares: portions of a share come in the order
- *  of their rows, those of different shares in any order. */
+/** What has been made of whole slices, ROWS_CHUNK rows each but for the last one of a stripe. Those of a stripe are
+ *  divided into shares: portions of a share come in the order of their rows, those of different shares in any order. */
 typedef struct field_portion {
     int stripe, share;
     dem_index first, n; /**< rows of the stripe */

@@ -42,7 +42,7 @@ static dem_index count(const collection *c, dem_index end)
 {
     const gather_items *items = c->items;
     dem_index *n = &c->n[c->ranks->rank], i = c->next;
-    for (*n = 0; i < items->n && items->number[i] < end; i++) *n += gather_owns(items, i);
+    for (*n = 0; i < items->n && gather_number(items, i) < end; i++) *n += gather_owns(items, i);
     return i;
 }
 
@@ -65,7 +65,7 @@ static void pack(const collection *c, dem_index behind)
     unsigned char *to = (unsigned char *)(number + c->n[c->ranks->rank]);
     for (dem_index i = c->next; i < behind; i++) {
         if (!gather_owns(items, i)) continue;
-        *number++ = items->number[i];
+        *number++ = gather_number(items, i);
         memcpy(to, c->from + (size_t)i * c->size, c->size);
         to += c->size;
     }
@@ -176,8 +176,9 @@ static void send_chunk(const collection *c, size_t bytes, void *chunk)
 static void take_rows(collection *c, dem_index first, dem_index end, const unsigned char *chunk, unsigned char *to)
 {
     const gather_items *items = c->items;
-    for (; c->next < items->n && items->number[c->next] < end; c->next++)
-        memcpy(to + (size_t)c->next * c->size, chunk + (size_t)(items->number[c->next] - first) * c->size, c->size);
+    for (; c->next < items->n && gather_number(items, c->next) < end; c->next++)
+        memcpy(to + (size_t)c->next * c->size, chunk + (size_t)(gather_number(items, c->next) - first) * c->size,
+               c->size);
 }
 
 dem_status gather_back(const ranks *r, const gather_items *items, size_t size, const void *whole, void *to)

@@ -10,8 +10,8 @@
 /** The nodes, springs or triangles that a rank has. */
 typedef struct gather_items {
     dem_index n, n_whole;        /* here, and in the whole lattice */
-    const dem_index *number;     /* [n] in the whole lattice, ascending. For row_blocks.h NULL: they are all */
-    const unsigned char *is_own; /* [nodes] 1: owned here, as by no other rank. Likewise NULL: they are own */
+    const dem_index *number;     /* [n] in the whole lattice, ascending; NULL: here are all */
+    const unsigned char *is_own; /* [nodes] 1: owned here, as by no other rank; NULL: all are */
     int n_corners;               /* nodes of a spring or triangle, which belongs to the lowest one; 0: it is a node */
     const dem_index *corners;    /* [n][n_corners] */
 } gather_items;

@@ -23,7 +23,7 @@ static void number_slices(const row_blocks *b)
 {
     for (int k = 0; k < b->n_stripes; k++) {
         const dem_index n = begin_of(b, k + 1) - begin_of(b, k);
-        b->first_slice[k + 1] = b->first_slice[k] + (n + ROW_BLOCKS_SLICE - 1) / ROW_BLOCKS_SLICE;
+        b->first_slice[k + 1] = b->first_slice[k] + (n + ROWS_CHUNK - 1) / ROWS_CHUNK;
     }
 }
 
@@ -32,9 +32,9 @@ row_slice row_blocks_slice(const row_blocks *b, int rank, dem_index round)
     const dem_index all = b->first_slice[b->n_stripes], slice = team_share(all, b->ranks->size, rank) + round;
     if (slice >= team_share(all, b->ranks->size, rank + 1)) return (row_slice){0};
     const int stripe = (int)sorted_first(b->first_slice + 1, b->n_stripes, slice + 1);
-    const dem_index begin = begin_of(b, stripe), first = (slice - b->first_slice[stripe]) * ROW_BLOCKS_SLICE;
+    const dem_index begin = begin_of(b, stripe), first = (slice - b->first_slice[stripe]) * ROWS_CHUNK;
     const dem_index left = begin_of(b, stripe + 1) - begin - first;
-    return (row_slice){stripe, begin, first, left < ROW_BLOCKS_SLICE ? left : ROW_BLOCKS_SLICE};
+    return (row_slice){stripe, begin, first, left < ROWS_CHUNK ? left : ROWS_CHUNK};
 }
 
 /* ---- what will come ---- */

@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Rows of all nodes, springs or triangles in a *block distribution*: each rank gets those of a range of numbers of the
- * whole, its block, from the ranks that own them, one slice after the other. No slice reaches beyond the end of a
- * stripe, one of equal ranges of all rows. */
+ * whole, its block, from the ranks that own them, one slice of ROWS_CHUNK rows after the other. No slice reaches beyond
+ * the end of a stripe, one of equal ranges of all rows. */
 #ifndef DEM_DOMAIN_ROW_BLOCKS_H
 #define DEM_DOMAIN_ROW_BLOCKS_H
 
 #include "domain/gather.h"
-
-enum { ROW_BLOCKS_SLICE = ROWS_CHUNK /* rows of a slice, but for the last one of all */ };
 
 /** What a rank has of the rows. */
 typedef struct row_blocks_source {

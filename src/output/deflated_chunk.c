@@ -10,23 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
 #include "base/status.h"
-
-/* Room grows by a quarter at least: pages of a large run that nothing was written to take no memory. */
-static dem_status make_room(deflated_run *r, size_t more)
-{
-    const size_t least = r->n + more, grown = r->n + r->n / 4;
-    if (least <= r->room) return DEM_OK;
-    unsigned char *bytes = realloc(r->bytes, least > grown ? least : grown);
-    CHECK(bytes != NULL, DEM_ERROR_MEMORY, "out of memory for %zu deflated bytes", least);
-    r->bytes = bytes;
-    r->room = least > grown ? least : grown;
-    return DEM_OK;
-}
 
 static dem_status add_bytes(deflated_run *r, const void *bytes, size_t n)
 {
-    TRY(make_room(r, n));
+    CHECK(grow_array((void **)&r->bytes, &r->room, (dem_index)(r->n + n), 1), DEM_ERROR_MEMORY,
+          "out of memory for %zu deflated bytes", r->n + n);
     if (n > 0) memcpy(r->bytes + r->n, bytes, n);
     r->n += n;
     return DEM_OK;

@@ -11,7 +11,8 @@
 /** Sections of a plane that stand one behind the other. */
 typedef struct deflated_run {
     unsigned char *bytes; /**< [n] */
-    size_t n, room;       /**< bytes */
+    size_t n;             /**< bytes */
+    dem_index room;       /**< bytes, of which those that nothing was written to take no memory */
     uint32_t checksum;    /**< Adler-32 of what is packed in them, */
     size_t size;          /**< of so many bytes */
 } deflated_run;

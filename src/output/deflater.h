@@ -10,11 +10,12 @@
 #include <dem/dem.h>
 #include <stdbool.h>
 
+#include "base/rows_taker.h"
 #include "base/section.h"
 
 /** Rows of a slice of a chunk. In chunks of DEFLATER_CUT numbers or more each byte of the numbers of a slice is a
  *  section, in smaller ones all is: each section costs five bytes, and time to begin. */
-enum { DEFLATER_SLICE = 65536, DEFLATER_CUT = 16384 };
+enum { DEFLATER_SLICE = ROWS_CHUNK, DEFLATER_CUT = 16384 };
 
 /** Zero at first. */
 typedef struct deflater {

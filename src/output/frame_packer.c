@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
 #include "base/status.h"
 
 /* Of a section. */
@@ -47,7 +48,7 @@ static int planes_of(const hdf5_rows *rows)
 
 static int slices_of(const field_portion *portion)
 {
-    return (int)((portion->n + FIELD_SLICE - 1) / FIELD_SLICE);
+    return (int)((portion->n + ROWS_CHUNK - 1) / ROWS_CHUNK);
 }
 
 /* Row of the file at which the frame begins. */
@@ -58,23 +59,16 @@ static hsize_t first_row(const field_arrays *a, const hdf5_rows *rows)
 
 /* ---- making ---- */
 
-/* Keeps what is there. */
-static dem_status make_room(void **buffer, size_t *room, size_t bytes)
+static dem_status make_room(unsigned char **bytes, dem_index *room, size_t needed)
 {
-    if (bytes <= *room) return DEM_OK;
-    void *larger = realloc(*buffer, bytes);
-    CHECK(larger != NULL, DEM_ERROR_MEMORY, "out of memory for %zu bytes of a frame", bytes);
-    *buffer = larger;
-    *room = bytes;
+    CHECK(grow_array((void **)bytes, room, (dem_index)needed, 1), DEM_ERROR_MEMORY,
+          "out of memory for %zu bytes of a frame", needed);
     return DEM_OK;
 }
 
 static dem_status extend(frame_packer *p, const field_portion *portion, size_t more)
 {
-    void *bytes = p->portion;
-    TRY(make_room(&bytes, &p->portion_room, portion->size + align(more)));
-    p->portion = bytes;
-    return DEM_OK;
+    return make_room(&p->portion, &p->portion_room, portion->size + align(more));
 }
 
 static dem_status add_packed(frame_packer *p, field_portion *portion)

@@ -18,10 +18,9 @@ typedef struct field_arrays {
 /** Kept from one frame to the next. Zero at first. */
 typedef struct frame_packer {
     deflater deflater;
-    void *converted;                     /* rows of an array, */
-    unsigned char *portion;              /* and all of a portion */
-    size_t converted_room, portion_room; /* bytes */
-    deflated_chunk chunks[FRAME_ARRAYS]; /* that have been begun, and not been written */
+    unsigned char *converted, *portion;     /* rows of an array, and all of a portion */
+    dem_index converted_room, portion_room; /* bytes */
+    deflated_chunk chunks[FRAME_ARRAYS];    /* that have been begun, and not been written */
 } frame_packer;
 
 /** Whether the file has rows of its arrays packed, as it has those of all or of none. */

@@ -16,7 +16,7 @@ static dem_status make_and_take(const field_order *o, const void *rows, field_po
 /* Of rows that are all here, a slice for each thread at a time. */
 static dem_status carry_out(const field_order *o, const char *rows, dem_index n)
 {
-    const dem_index at_once = (dem_index)team_threads(o->team) * FIELD_SLICE;
+    const dem_index at_once = (dem_index)team_threads(o->team) * ROWS_CHUNK;
     TRY(field_order_begin(o, 0, 1));
     for (dem_index first = 0; first < n; first += at_once) {
         field_portion portion = {.first = first, .n = n - first < at_once ? n - first : at_once};

@@ -45,7 +45,7 @@ static dem_status allocate(carrying *c)
 {
     const size_t n = (size_t)c->ranks->size;
     c->what = malloc(c->order.size + 1);
-    c->slice = malloc(FIELD_SLICE * field_rows_size(c->order.field));
+    c->slice = malloc(ROWS_CHUNK * field_rows_size(c->order.field));
     c->sizes = calloc(n, sizeof *c->sizes);
     c->sent = calloc(n, sizeof *c->sent);
     c->received = calloc(n, sizeof *c->received);
