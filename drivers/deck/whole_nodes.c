@@ -85,8 +85,9 @@ int whole_nodes_rim(double ends[WHOLE_NODES_SIDES][2], const dem_model *model, d
 typedef struct ahead {
     int32_t body;
     dem_index first, end;
+    double from[2];
     const double *along;
-    double most;
+    double most; /* m, from there */
 } ahead;
 
 static dem_status find_nodes(void *context, dem_index first, dem_index n, const void *bodies)
@@ -107,16 +108,15 @@ static dem_status find_farthest(void *context, dem_index first, dem_index n, con
     const double *x = places;
     for (dem_index i = 0; i < n; i++)
         if (first + i >= a->first && first + i < a->end)
-            a->most = fmax(a->most, x[2 * i] * a->along[0] + x[2 * i + 1] * a->along[1]);
+            a->most = fmax(a->most, (x[2 * i] - a->from[0]) * a->along[0] + (x[2 * i + 1] - a->from[1]) * a->along[1]);
     return DEM_OK;
 }
 
 bool whole_nodes_any_ahead(const dem_model *model, dem_index node, const double along[2], double slack)
 {
-    double x[2];
     ahead a = {.body = (int32_t)whole_nodes_body(model, node), .along = along, .most = -(double)INFINITY};
-    whole_nodes_place(x, model, node);
+    whole_nodes_place(a.from, model, node);
     visit(model, offsetof(dem_lattice, body), find_nodes, &a);
     visit(model, offsetof(dem_lattice, x), find_farthest, &a);
-    return a.most - (x[0] * along[0] + x[1] * along[1]) > slack;
+    return a.most > slack;
 }
