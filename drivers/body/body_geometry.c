@@ -495,11 +495,11 @@ static dem_status cut_slab(dem_slab *slab, former *f, dem_index **rows, body_ran
     return status == DEM_OK && slab->n_own > 0 ? jitter(f, slab) : status;
 }
 
-static dem_status read_slab(dem_slab *slab, const former *f, dem_index **spans, body_range range)
+static dem_status read_slab(dem_slab *slab, const former *f, dem_index **node_ranges, body_range range)
 {
     char *path = body_geometry_file(f->folder, f->body);
     if (path == NULL) return DEM_ERROR_MEMORY;
-    const dem_status status = dem_private_slab_of_file(slab, path, spans, range.begin, range.end);
+    const dem_status status = dem_private_slab_of_file(slab, path, node_ranges, range.begin, range.end);
     free(path);
     return report(f, status, schema_place(f->body, "file"), "");
 }

@@ -40,7 +40,8 @@ typedef struct body_keys {
     const schema_deck *groups;
     size_t k;
     const char *folder;
-    dem_index **rows; /* for slabs: NULL in it, or what an earlier one left: counts of rows, spans; to be freed */
+    dem_index *
+        *rows; /* for slabs: NULL in it, or what an earlier one left: counts of rows, ranges of nodes; to be freed */
 } body_keys;
 
 /* The same as body_geometry_triangulate() of a slab of a body, which is no mesh, has a stepped edge and no cracks. A

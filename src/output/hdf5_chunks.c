@@ -86,15 +86,20 @@ static hsize_t count_inflated(unsigned char *packed, hsize_t size, hsize_t enoug
     return n;
 }
 
-/* Whether the stored bytes of the chunk give at least its extent.
+/* What is stored of a chunk. */
+typedef struct stored_chunk {
+    unsigned char *bytes; /* [size] */
+    hsize_t size;
+    uint32_t left_out; /* the filters that were not used for it, a bit each */
+} stored_chunk;
+
+/* Reads a chunk. Whether its bytes give at least its extent.
  * \param enough  bytes after which no more are unpacked */
-static bool gives_all(hid_t dataset, const chunk_form *f, const hsize_t *at, hsize_t enough, unsigned char *stored,
-                      hsize_t size)
+static bool gives_all(hid_t dataset, const chunk_form *f, const hsize_t *at, hsize_t enough, stored_chunk *c)
 {
-    uint32_t left_out = 0; /* the filters that were not used for this chunk, a bit each */
-    if (H5Dread_chunk(dataset, H5P_DEFAULT, at, &left_out, stored) < 0) return false;
-    const bool packed = f->deflate >= 0 && (left_out >> f->deflate & 1) == 0;
-    return (packed ? count_inflated(stored, size, enough) : size) >= f->bytes;
+    if (H5Dread_chunk(dataset, H5P_DEFAULT, at, &c->left_out, c->bytes) < 0) return false;
+    const bool packed = f->deflate >= 0 && (c->left_out >> f->deflate & 1) == 0;
+    return (packed ? count_inflated(c->bytes, c->size, enough) : c->size) >= f->bytes;
 }
 
 /* Bytes that are stored of a chunk; 0 where it was never written, and is read as zeros, or where the index gives no
@@ -105,16 +110,22 @@ static hsize_t bytes_stored(hid_t dataset, const hsize_t *at)
     return H5Dget_chunk_storage_size(dataset, at, &size) < 0 ? 0 : size;
 }
 
+static dem_status allocate(stored_chunk *c)
+{
+    c->bytes = malloc((size_t)c->size);
+    CHECK(c->bytes != NULL, DEM_ERROR_MEMORY, "out of memory for a chunk of %llu bytes", (unsigned long long)c->size);
+    return DEM_OK;
+}
+
 /* Reads what is stored of a chunk. */
 static dem_status look_into(hid_t dataset, const chunk_form *f, const hsize_t *at, hsize_t enough, bool *whole)
 {
-    const hsize_t size = bytes_stored(dataset, at);
-    *whole = size <= bytes_of_file(dataset) && size <= UINT_MAX;
+    stored_chunk c = {.size = bytes_stored(dataset, at)};
+    *whole = c.size <= bytes_of_file(dataset) && c.size <= UINT_MAX;
     if (!*whole) return DEM_OK;
-    unsigned char *stored = malloc((size_t)size);
-    CHECK_MEMORY(stored);
-    *whole = gives_all(dataset, f, at, enough, stored, size);
-    free(stored);
+    TRY(allocate(&c));
+    *whole = gives_all(dataset, f, at, enough, &c);
+    free(c.bytes);
     return DEM_OK;
 }
 
@@ -179,17 +190,17 @@ dem_status hdf5_chunks_fetch(hid_t dataset, hsize_t first, hsize_t rows, unsigne
 {
     const chunk_form f = form_of(dataset);
     const hsize_t at[HDF5_MAX_RANK] = {first};
-    uint32_t left_out = 0;
     *bytes = NULL;
     if (!is_packed_chunk(dataset, &f, first, rows)) return DEM_OK;
-    *size = (size_t)bytes_stored(dataset, at);
-    *bytes = malloc(*size);
-    CHECK(*bytes != NULL, DEM_ERROR_MEMORY, "out of memory for a chunk of %zu bytes", *size);
-    const bool is_read = H5Dread_chunk(dataset, H5P_DEFAULT, at, &left_out, *bytes) >= 0;
-    if (is_read && left_out == 0 && count_inflated(*bytes, *size, UINT64_MAX) >= f.bytes) return DEM_OK;
-    free(*bytes);
-    *bytes = NULL;
-    return is_read && left_out != 0 ? DEM_OK : DEM_ERROR_IO;
+    stored_chunk c = {.size = bytes_stored(dataset, at)};
+    TRY(allocate(&c));
+    const bool whole = gives_all(dataset, &f, at, UINT64_MAX, &c);
+    *size = (size_t)c.size;
+    if (whole && c.left_out == 0)
+        *bytes = c.bytes;
+    else
+        free(c.bytes);
+    return whole ? DEM_OK : DEM_ERROR_IO;
 }
 
 /* Of each read that converts numbers HDF5 fills a buffer of 1 MiB with zeros, which takes longer than few numbers do,

@@ -32,8 +32,8 @@ typedef struct draft {
     numbers found[LATTICE_ITEMS];  /* what the slab has: numbers of nodes, springs and triangles, ascending */
     numbers corner[LATTICE_ITEMS]; /* nodes of its springs and triangles, in the whole */
     numbers around;                /* corners of the triangles at the rim, three each */
-    dem_index *spans;              /* [1 + 2 pieces] how many pieces there are, and the nodes of each: see span_of() */
-    bool are_known;                /* spans have been found */
+    dem_index *node_ranges;        /* [1 + 2 pieces] how many pieces there are, and the nodes of each: see range_of() */
+    bool are_known;                /* node_ranges have been found */
 } draft;
 
 /* What is asked for. */
@@ -67,21 +67,21 @@ static dem_index count_pieces(const lattice_datasets *f, int a)
 
 /* Of a piece of springs, or of triangles, which come behind: the lowest node of its first row, than which no node of
  * it, and of pieces behind it, is lower, and its highest node. */
-static dem_index *span_of(const draft *d, dem_index piece)
+static dem_index *range_of(const draft *d, dem_index piece)
 {
-    return d->spans + 1 + 2 * piece;
+    return d->node_ranges + 1 + 2 * piece;
 }
 
 /* What an earlier look has left, if it is of such a file. */
-static dem_status open_spans(draft *d)
+static dem_status open_node_ranges(draft *d)
 {
     const dem_index n = count_pieces(&d->file, LATTICE_ENDS) + count_pieces(&d->file, LATTICE_CORNERS);
-    d->are_known = d->spans != NULL && d->spans[0] == n;
+    d->are_known = d->node_ranges != NULL && d->node_ranges[0] == n;
     if (d->are_known) return DEM_OK;
-    free(d->spans);
-    d->spans = lattice_zeros(1 + 2 * n, sizeof *d->spans);
-    CHECK_MEMORY(d->spans);
-    d->spans[0] = n;
+    free(d->node_ranges);
+    d->node_ranges = lattice_zeros(1 + 2 * n, sizeof *d->node_ranges);
+    CHECK_MEMORY(d->node_ranges);
+    d->node_ranges[0] = n;
     return DEM_OK;
 }
 
@@ -96,7 +96,7 @@ struct scan {
     dem_status (*look)(draft *d, const scan *s, dem_index k, const dem_index *corner); /* at number k */
     dem_index begin, end;                                                              /* nodes that are looked for */
     dem_index lowest; /* node of the one before; -1: there is none */
-    dem_index piece;  /* that is looked at, see span_of() */
+    dem_index piece;  /* that is looked at, see range_of() */
 };
 
 /* Takes number k if one of its nodes is own. */
@@ -115,10 +115,10 @@ static dem_status take(draft *d, const scan *s, dem_index k, const dem_index *co
 /* Looks at number k, which is not to have a lower node than those before it. */
 static dem_status look_at(draft *d, scan *s, dem_index k, const dem_index *corner)
 {
-    dem_index *span = span_of(d, s->piece), lowest = corner[0];
+    dem_index *range = range_of(d, s->piece), lowest = corner[0];
     for (int c = 0; c < s->arity; c++) {
         lowest = corner[c] < lowest ? corner[c] : lowest;
-        if (!d->are_known && corner[c] > span[1]) span[1] = corner[c];
+        if (!d->are_known && corner[c] > range[1]) range[1] = corner[c];
     }
     CHECK(lowest >= s->lowest, DEM_ERROR_MODEL,
           "%s: %s: %s %lld has the lowest node %lld, the one before it %lld: slabs need them in the order of their "
@@ -136,7 +136,7 @@ static dem_status look_at_piece(draft *d, scan *s, const hdf5_untrusted_rows *pi
         return lattice_datasets_refuse(&d->file);
     for (dem_index k = 0; k < n; k++) {
         TRY(look_at(d, s, first + k, corner + s->arity * k));
-        if (!d->are_known && k == 0) span_of(d, s->piece)[0] = s->lowest;
+        if (!d->are_known && k == 0) range_of(d, s->piece)[0] = s->lowest;
     }
     return DEM_OK;
 }
@@ -144,8 +144,8 @@ static dem_status look_at_piece(draft *d, scan *s, const hdf5_untrusted_rows *pi
 /* Whether a piece may have something at a node that is looked for. */
 static bool may_have(const draft *d, const scan *s)
 {
-    const dem_index *span = span_of(d, s->piece);
-    return !d->are_known || (span[0] < s->end && span[1] >= s->begin);
+    const dem_index *range = range_of(d, s->piece);
+    return !d->are_known || (range[0] < s->end && range[1] >= s->begin);
 }
 
 static dem_status look_through(draft *d, scan s)
@@ -218,7 +218,7 @@ static dem_status mark_rim(draft *d, const dem_index *node, dem_index n, unsigne
     return DEM_OK;
 }
 
-/* Behind the list of the rim, and what is found of spans. */
+/* Behind the list of the rim, and what is found of node_ranges. */
 static dem_status find_rim_boundary(draft *d)
 {
     const numbers *rim = &d->rim;
@@ -312,7 +312,7 @@ static dem_status read_rows(draft *d)
 static dem_status read_slab(draft *d, const asked *a)
 {
     TRY(place(d, a));
-    TRY(open_spans(d));
+    TRY(open_node_ranges(d));
     const scan springs = springs_of(d), triangles = triangles_of(d);
     TRY(look_through(d, springs));
     TRY(look_through(d, triangles));
@@ -338,12 +338,12 @@ static void close_draft(draft *d)
         free(d->corner[of].list);
     }
     if (!d->are_known) {
-        free(d->spans);
-        d->spans = NULL;
+        free(d->node_ranges);
+        d->node_ranges = NULL;
     }
 }
 
-/* \param d  with the file, open, and what is known of spans: what is then stays there */
+/* \param d  with the file, open, and what is known of node_ranges: what is then stays there */
 static dem_status read_open(draft *d, dem_slab *out, const asked *a)
 {
     const dem_status status = hdf5_close(&d->file.file, read_slab(d, a));
@@ -378,16 +378,17 @@ dem_status dem_slab_read(dem_slab *out, const char *path, dem_index part, dem_in
     if (check_parts(&d, n_parts) != DEM_OK) return hdf5_close(&d.file.file, DEM_ERROR_MODEL);
     const asked a = part_of(d.file.n[LATTICE_NODES], part, n_parts);
     const dem_status status = read_open(&d, out, &a);
-    free(d.spans);
+    free(d.node_ranges);
     return status;
 }
 
-dem_status dem_private_slab_of_file(dem_slab *out, const char *path, dem_index **spans, dem_index begin, dem_index end)
+dem_status dem_private_slab_of_file(dem_slab *out, const char *path, dem_index **node_ranges, dem_index begin,
+                                    dem_index end)
 {
-    draft d = {.slab = dem_slab_empty(), .spans = *spans};
+    draft d = {.slab = dem_slab_empty(), .node_ranges = *node_ranges};
     TRY(slab_check_out(out, 0, 1));
     TRY(lattice_datasets_open(&d.file, path));
     const dem_status status = read_open(&d, out, &(asked){begin, end, true});
-    *spans = d.spans;
+    *node_ranges = d.node_ranges;
     return status;
 }

@@ -21,12 +21,17 @@ struct open_stripe {
     char path[HDF5_PATH];
 };
 
-dem_status stripe_file_path(char out[HDF5_PATH], const char *whole, numbered_file file)
+int stripe_file_stem(const char *whole)
 {
     enum { SUFFIX = sizeof ".vtkhdf" - 1 };
+    return (int)strlen(whole) - SUFFIX;
+}
+
+dem_status stripe_file_path(char out[HDF5_PATH], const char *whole, numbered_file file)
+{
     char end[NUMBERED_FILE];
     numbered_file_print(end, file);
-    const int n = snprintf(out, HDF5_PATH, "%.*s%s", (int)strlen(whole) - SUFFIX, whole, end);
+    const int n = snprintf(out, HDF5_PATH, "%.*s%s", stripe_file_stem(whole), whole, end);
     CHECK(n > 0 && n < HDF5_PATH, DEM_ERROR_IO, "%s: the name of a stripe is too long", whole);
     return DEM_OK;
 }

@@ -32,6 +32,9 @@ typedef struct stripe_name {
     int n;                /* stripes; 0: there are none */
 } stripe_name;
 
+/** Characters of NAME in NAME.vtkhdf. */
+int stripe_file_stem(const char *whole);
+
 /** The path of a file of NAME.  \param whole  NAME.vtkhdf  \return DEM_ERROR_IO if it is too long */
 dem_status stripe_file_path(char out[HDF5_PATH], const char *whole, numbered_file file);
 

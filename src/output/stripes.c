@@ -16,14 +16,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { SUFFIX = sizeof ".vtkhdf" - 1 };
-
 /* ---- names ---- */
-
-static int stem_of(const stripes *s)
-{
-    return (int)strlen(s->path) - SUFFIX;
-}
 
 /* Stripe k from 0 on, under its final name. */
 static numbered_file name_of(const stripes *s, dem_index number, int k)
@@ -201,7 +194,7 @@ dem_status stripes_map(const stripes *s, const frames *f, dem_index number, cons
     for (int k = 0; k < s->n && status == DEM_OK; k++) {
         char end[NUMBERED_FILE];
         numbered_file_print(end, name_of(s, number, k));
-        const int length = stem_of(s) - (int)(name - s->path);
+        const int length = stripe_file_stem(s->path) - (int)(name - s->path);
         const int written = snprintf(names[k], sizeof names[k], "%.*s%s", length, name, end);
         if (written < 0 || (size_t)written >= sizeof names[k])
             status = status_fail(DEM_ERROR_IO, "%s: the name of a stripe is too long", s->path);
@@ -238,7 +231,7 @@ static void remove_others(const stripes *s, keeps *stays, dem_index above)
 {
     const char *slash = strrchr(s->path, '/'), *name = slash != NULL ? slash + 1 : s->path;
     const int of_folder = (int)(name - s->path);
-    const size_t length = (size_t)(stem_of(s) - of_folder);
+    const size_t length = (size_t)(stripe_file_stem(s->path) - of_folder);
     char path[HDF5_PATH];
     const struct dirent *entry;
     numbered_file e;

@@ -142,10 +142,10 @@ static dem_status read_slab(void)
 {
     CLEANUP(dem_slab_free) dem_slab slab = dem_slab_empty();
     CLEANUP(dem_slab_free) dem_slab range = dem_slab_empty();
-    CLEANUP(free_memory) dem_index *spans = NULL;
+    CLEANUP(free_memory) dem_index *node_ranges = NULL;
     dem_status status = dem_slab_read(&slab, "fault.vtkhdf", 1, 3);
     assert_true(status == DEM_OK || (slab.lattice.x == NULL && slab.rim == NULL));
-    if (status == DEM_OK) status = dem_private_slab_of_file(&range, "fault.vtkhdf", &spans, 2, 9);
+    if (status == DEM_OK) status = dem_private_slab_of_file(&range, "fault.vtkhdf", &node_ranges, 2, 9);
     assert_true(status == DEM_OK || (range.lattice.x == NULL && range.rim_boundary == NULL));
     return status;
 }

@@ -413,12 +413,12 @@ static void compare_file(const dem_lattice *l, dem_index n_parts)
 /* Which have rim_boundary besides. */
 static void compare_ranges(const dem_lattice *l, dem_index step)
 {
-    CLEANUP(free_memory) dem_index *spans = NULL;
+    CLEANUP(free_memory) dem_index *node_ranges = NULL;
     dem_index next = 0;
     while (next < l->n_nodes) {
         CLEANUP(dem_slab_free) dem_slab s = dem_slab_empty();
         const dem_index end = next + step < l->n_nodes ? next + step : l->n_nodes;
-        assert_ok(dem_private_slab_of_file(&s, path, &spans, next, end));
+        assert_ok(dem_private_slab_of_file(&s, path, &node_ranges, next, end));
         assert_same_nodes(l, &s, &next);
         assert_int_equal(next, end);
         assert_non_null(s.rim_boundary);

@@ -246,15 +246,15 @@ TEST_WITH(pieces_are_read_from_chunks_of_any_size, write_lattice, remove_lattice
 /* Node 4 has but a spring, and is in no triangle; the boundary has all others. */
 TEST_WITH(a_range_knows_which_nodes_of_its_rim_are_on_the_boundary, write_ordered, remove_lattice)
 {
-    CLEANUP(free_memory) dem_index *spans = NULL;
+    CLEANUP(free_memory) dem_index *node_ranges = NULL;
     CLEANUP(dem_slab_free) dem_slab s = dem_slab_empty();
     CLEANUP(dem_slab_free) dem_slab none = dem_slab_empty();
-    assert_ok(dem_private_slab_of_file(&s, path, &spans, 3, 4));
+    assert_ok(dem_private_slab_of_file(&s, path, &node_ranges, 3, 4));
     assert_int_equal(s.first_node, 3);
     assert_int_equal(s.n_own, 1);
     assert_memory_equal(s.rim, ((dem_index[3]){0, 2, 4}), 3 * sizeof *s.rim);
     assert_memory_equal(s.rim_boundary, ((unsigned char[3]){1, 1, 0}), 3);
-    assert_ok(dem_private_slab_of_file(&none, path, &spans, 2, 2));
+    assert_ok(dem_private_slab_of_file(&none, path, &node_ranges, 2, 2));
     assert_int_equal(none.n_nodes, 5);
     assert_int_equal(none.n_triangles, 2);
     assert_int_equal(none.n_own, 0);
@@ -263,18 +263,18 @@ TEST_WITH(a_range_knows_which_nodes_of_its_rim_are_on_the_boundary, write_ordere
 
 TEST_WITH(ranges_that_there_are_not_are_refused, write_lattice, remove_lattice)
 {
-    CLEANUP(free_memory) dem_index *spans = NULL;
+    CLEANUP(free_memory) dem_index *node_ranges = NULL;
     dem_slab s = dem_slab_empty();
-    assert_int_equal(dem_private_slab_of_file(&s, path, &spans, 2, 6), DEM_ERROR_MODEL);
+    assert_int_equal(dem_private_slab_of_file(&s, path, &node_ranges, 2, 6), DEM_ERROR_MODEL);
     assert_message_parts("test_slab_file.h5: has no nodes from 2 to 5: there are 5");
-    assert_int_equal(dem_private_slab_of_file(&s, path, &spans, -1, 2), DEM_ERROR_MODEL);
-    assert_int_equal(dem_private_slab_of_file(&s, path, &spans, 3, 2), DEM_ERROR_MODEL);
-    assert_int_equal(dem_private_slab_of_file(&s, path, &spans, 0, 2), DEM_ERROR_MODEL);
+    assert_int_equal(dem_private_slab_of_file(&s, path, &node_ranges, -1, 2), DEM_ERROR_MODEL);
+    assert_int_equal(dem_private_slab_of_file(&s, path, &node_ranges, 3, 2), DEM_ERROR_MODEL);
+    assert_int_equal(dem_private_slab_of_file(&s, path, &node_ranges, 0, 2), DEM_ERROR_MODEL);
     assert_message_parts("/lattice/ends: spring 3 * lowest node 0 * before it 2");
-    assert_null(spans); /* what is not known of all pieces is not kept */
+    assert_null(node_ranges); /* what is not known of all pieces is not kept */
     put_whole("ends", 6, 2, ordered);
-    assert_ok(dem_private_slab_of_file(&s, path, &spans, 0, 2));
-    assert_non_null(spans);
+    assert_ok(dem_private_slab_of_file(&s, path, &node_ranges, 0, 2));
+    assert_non_null(node_ranges);
     dem_slab_free(&s);
 }
 
@@ -320,12 +320,12 @@ static void assert_block_boundary(const dem_slab *s)
 
 TEST_WITH(ranges_are_the_same_by_what_is_known_of_the_pieces, write_lattice, remove_lattice)
 {
-    CLEANUP(free_memory) dem_index *spans = NULL;
+    CLEANUP(free_memory) dem_index *node_ranges = NULL;
     write_block();
     for (dem_index part = 0; part < 40; part += 3) {
         CLEANUP(dem_slab_free) dem_slab range = dem_slab_empty();
         CLEANUP(dem_slab_free) dem_slab read = read_slab(part, 40);
-        assert_ok(dem_private_slab_of_file(&range, path, &spans, read.first_node, read.first_node + read.n_own));
+        assert_ok(dem_private_slab_of_file(&range, path, &node_ranges, read.first_node, read.first_node + read.n_own));
         assert_same_slab(&read, &range);
         assert_block_boundary(&range);
     }
@@ -334,11 +334,11 @@ TEST_WITH(ranges_are_the_same_by_what_is_known_of_the_pieces, write_lattice, rem
 /* Triangles at a rim may be in the piece behind all that own nodes have, which begins in row 117. */
 TEST_WITH(ranges_that_end_with_a_piece_know_the_boundary, write_lattice, remove_lattice)
 {
-    CLEANUP(free_memory) dem_index *spans = NULL;
+    CLEANUP(free_memory) dem_index *node_ranges = NULL;
     write_block();
     for (dem_index end = 115 * ROWS; end < 120 * ROWS; end += 60) {
         CLEANUP(dem_slab_free) dem_slab range = dem_slab_empty();
-        assert_ok(dem_private_slab_of_file(&range, path, &spans, end - 50, end));
+        assert_ok(dem_private_slab_of_file(&range, path, &node_ranges, end - 50, end));
         assert_block_boundary(&range);
     }
 }
@@ -346,21 +346,21 @@ TEST_WITH(ranges_that_end_with_a_piece_know_the_boundary, write_lattice, remove_
 /* Which shows where something far away has become wrong. */
 TEST_WITH(pieces_without_anything_of_a_range_are_not_looked_at_again, write_lattice, remove_lattice)
 {
-    CLEANUP(free_memory) dem_index *spans = NULL;
+    CLEANUP(free_memory) dem_index *node_ranges = NULL;
     CLEANUP(dem_lattice_free) dem_lattice whole = dem_lattice_empty();
     CLEANUP(dem_slab_free) dem_slab before = dem_slab_empty();
     CLEANUP(dem_slab_free) dem_slab after = dem_slab_empty();
     dem_slab refused = dem_slab_empty();
     write_block();
     assert_ok(dem_lattice_read(&whole, path));
-    assert_ok(dem_private_slab_of_file(&before, path, &spans, 500, 1000));
+    assert_ok(dem_private_slab_of_file(&before, path, &node_ranges, 500, 1000));
     whole.ends[2 * whole.n_springs - 1] = -1;
     whole.triangles[3 * whole.n_triangles - 1] = -1;
     put_whole("ends", (hsize_t)whole.n_springs, 2, whole.ends);
     put_whole("triangles", (hsize_t)whole.n_triangles, 3, whole.triangles);
-    assert_ok(dem_private_slab_of_file(&after, path, &spans, 500, 1000));
+    assert_ok(dem_private_slab_of_file(&after, path, &node_ranges, 500, 1000));
     assert_same_slab(&before, &after);
-    assert_int_equal(dem_private_slab_of_file(&refused, path, &spans, whole.n_nodes - 9, whole.n_nodes),
+    assert_int_equal(dem_private_slab_of_file(&refused, path, &node_ranges, whole.n_nodes - 9, whole.n_nodes),
                      DEM_ERROR_MODEL);
     assert_int_equal(dem_slab_read(&refused, path, 0, 160), DEM_ERROR_MODEL);
 }
