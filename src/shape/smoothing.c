@@ -32,6 +32,12 @@ typedef struct rim_node {
     bool held;                /* does not slide */
 } rim_node;
 
+/* What is gained where the side of a pair of triangles goes: see `pair`. */
+typedef struct gain_at {
+    double gain;
+    dem_index side; /* -1: none */
+} gain_at;
+
 typedef struct draft {
     const shape *shape;
     dem_lattice *lattice; /* its nodes are where the grid has them */
@@ -43,7 +49,9 @@ typedef struct draft {
     dem_index n_rim, *rim;   /* the nodes at the rim */
     dem_index n_cut;         /* corners without a node */
     dem_index n_near, *near; /* triangles with a node that may move */
-    bool *flipped;           /* [n_triangles] */
+    dem_index *choice;       /* [n_triangles] of a poor one the side that is to go; -1: none */
+    gain_at *best;           /* [n_triangles] of its sides that are to go */
+    bool *marked;            /* [n_nodes] at an unsound triangle */
 } draft;
 
 static void draft_free(draft *d)
@@ -55,7 +63,9 @@ static void draft_free(draft *d)
     free(d->at);
     free(d->rim);
     free(d->near);
-    free(d->flipped);
+    free(d->choice);
+    free(d->best);
+    free(d->marked);
     *d = (draft){0};
 }
 
@@ -69,8 +79,11 @@ static bool draft_create(draft *d, dem_lattice *lattice, const shape *s)
     d->at = calloc(n + 1, sizeof *d->at);
     d->rim = calloc(n + 1, sizeof *d->rim);
     d->near = calloc(m + 1, sizeof *d->near);
-    d->flipped = calloc(m + 1, sizeof *d->flipped);
-    return d->x && d->sum && d->depth && d->at && d->rim && d->near && d->flipped && stars_create(&d->stars, lattice);
+    d->choice = calloc(m + 1, sizeof *d->choice);
+    d->best = calloc(m + 1, sizeof *d->best);
+    d->marked = calloc(n + 1, sizeof *d->marked);
+    const bool has_room = d->x && d->sum && d->depth && d->at && d->rim && d->near && d->choice && d->best && d->marked;
+    return has_room && stars_create(&d->stars, lattice);
 }
 
 static bool is_rim(const draft *d, dem_index i)
@@ -315,13 +328,12 @@ static bool is_deep(const draft *d, const pair *p)
     return d->depth[p->a] > layers || d->depth[p->b] > layers || d->depth[p->c] > layers || d->depth[p->e] > layers;
 }
 
-/* Of triangle t and its neighbour at a side. A triangle takes part once, so that it has at least 30 degrees where nodes
- * are at their places in the grid. \return false where there is no such pair */
+/* Of triangle t and its neighbour at a side. \return false where there is no such pair */
 static bool find_pair(const draft *d, pair *p, dem_index side)
 {
     const dem_lattice *l = d->lattice;
     const dem_index other = stars_across(&d->stars, l, side);
-    if (other < 0 || d->flipped[other / 3]) return false;
+    if (other < 0) return false;
     *p = (pair){.t = side / 3, .u = other / 3, .a = l->triangles[side], .b = l->triangles[other]};
     p->c = stars_end(l, 3 * p->t + (side + 1) % 3);
     p->e = stars_end(l, 3 * p->u + (other + 1) % 3);
@@ -333,52 +345,88 @@ static bool find_pair(const draft *d, pair *p, dem_index side)
     return isfinite(then);
 }
 
+/* Notes of each poor triangle the side at whose pair another diagonal gains most, of a pair of two poor ones once. */
+static void choose_sides(draft *d)
+{
+    pair p;
+    for (dem_index t = 0; t < d->lattice->n_triangles; t++) d->choice[t] = -1;
+    for (dem_index k = 0; k < d->n_near; k++) {
+        const dem_index t = d->near[k];
+        double gain = better;
+        dem_index choice = -1;
+        for (dem_index side = 3 * t; side < 3 * t + 3 && cotangent_of(d, t) > poor; side++) {
+            if (!find_pair(d, &p, side) || !(p.gain < gain)) continue;
+            gain = p.gain;
+            choice = side;
+        }
+        const dem_index other = choice >= 0 ? stars_across(&d->stars, d->lattice, choice) : -1;
+        if (other >= 0 && d->choice[other / 3] != other) d->choice[t] = choice;
+    }
+}
+
+/* Of the sides chosen at each triangle the one that gains most, of several of them the first. */
+static void rank_sides(draft *d)
+{
+    pair p;
+    for (dem_index t = 0; t < d->lattice->n_triangles; t++) d->best[t] = (gain_at){better, -1};
+    for (dem_index k = 0; k < d->n_near; k++) {
+        const dem_index side = d->choice[d->near[k]];
+        if (side < 0 || !find_pair(d, &p, side)) continue;
+        if (p.gain < d->best[p.t].gain) d->best[p.t] = (gain_at){p.gain, side};
+        if (p.gain < d->best[p.u].gain) d->best[p.u] = (gain_at){p.gain, side};
+    }
+}
+
 static void put_triangle(draft *d, dem_index t, dem_index i, dem_index j, dem_index k)
 {
     dem_index *corner = d->lattice->triangles + 3 * t;
     corner[0] = i;
     corner[1] = j;
     corner[2] = k;
-    d->flipped[t] = true;
 }
 
+/* Pairs of triangles get their other diagonal where none of these two takes part in a pair that gains more. So what
+ * becomes of a pair depends on triangles near it alone. A triangle changes once, so that it has at least 30 degrees
+ * where nodes are at their places in the grid. */
 static void flip(draft *d)
 {
+    pair p;
+    choose_sides(d);
+    rank_sides(d);
     for (dem_index k = 0; k < d->n_near; k++) {
-        const dem_index t = d->near[k];
-        pair best = {.gain = better}, p;
-        bool found = false;
-        if (d->flipped[t] || !(cotangent_of(d, t) > poor)) continue;
-        for (dem_index side = 3 * t; side < 3 * t + 3; side++) {
-            if (!find_pair(d, &p, side) || !(p.gain < best.gain)) continue;
-            best = p;
-            found = true;
-        }
-        if (!found) continue;
-        put_triangle(d, best.t, best.a, best.e, best.c);
-        put_triangle(d, best.u, best.e, best.b, best.c);
+        const dem_index t = d->near[k], side = d->choice[t];
+        if (side < 0 || d->best[t].side != side || !find_pair(d, &p, side) || d->best[p.u].side != side) continue;
+        put_triangle(d, p.t, p.a, p.e, p.c);
+        put_triangle(d, p.u, p.e, p.b, p.c);
     }
 }
 
 /* ---- soundness ---- */
 
-/* Corners of unsound triangles go half way back to the grid, until there are none. It ends, since there all triangles
- * are sound. */
+/* Marks the corners of unsound triangles.  \return whether there are any */
+static bool mark_unsound(const draft *d, bool *marked)
+{
+    bool any = false;
+    memset(marked, 0, (size_t)d->lattice->n_nodes * sizeof *marked);
+    for (dem_index k = 0; k < d->n_near; k++) {
+        const dem_index *corner = d->lattice->triangles + 3 * d->near[k];
+        if (cotangent_of(d, d->near[k]) <= unsound) continue;
+        any = true;
+        for (int c = 0; c < 3; c++) marked[corner[c]] = true;
+    }
+    return any;
+}
+
+/* Corners of unsound triangles go half way back to the grid, all of them at once, until there are none: the order of
+ * triangles does not matter. It ends, since there all triangles are sound. */
 static void move_unsound_back(draft *d)
 {
-    for (bool again = true; again;) {
-        again = false;
-        for (dem_index k = 0; k < d->n_near; k++) {
-            const dem_index *corner = d->lattice->triangles + 3 * d->near[k];
-            if (cotangent_of(d, d->near[k]) <= unsound) continue;
-            again = true;
-            for (int c = 0; c < 6; c++) {
-                double *x = d->x + 2 * corner[c / 2] + c % 2;
-                const double home = d->lattice->x[2 * corner[c / 2] + c % 2];
-                *x = home + 0.5 * (*x - home);
-            }
+    while (mark_unsound(d, d->marked))
+        for (dem_index i = 0; i < d->lattice->n_nodes; i++) {
+            const double *home = d->lattice->x + 2 * i;
+            double *x = d->x + 2 * i;
+            for (int c = 0; c < 2 && d->marked[i]; c++) x[c] = home[c] + 0.5 * (x[c] - home[c]);
         }
-    }
 }
 
 static void measure(smoothing *out, const draft *d)
