@@ -34,6 +34,7 @@ typedef struct former {
     dem_image image;     /* its pixels are owned */
     dem_outline *voids;  /* owned, with room for inclusions behind them */
     double *pores;       /* owned, with room for DEM_PORES_MAX more while a &pores group is placed */
+    bool *is_met;        /* owned, [cracks] those that cross a triangle */
     dem_lattice lattice;
     body_geometry geometry;
 } former;
@@ -43,6 +44,7 @@ static void former_free(former *f)
     free((void *)f->image.solid);
     free(f->voids);
     free(f->pores);
+    free(f->is_met);
 }
 
 static size_t count_own(const former *f, const char *name)
@@ -397,24 +399,12 @@ static dem_status weigh(former *f)
 
 /* ---- cracks ---- */
 
-/* \param crossed  [n_triangles] room */
-static dem_status mark_crack(const former *f, bool *keep, bool *crossed, const schema_instance *group)
-{
-    const schema_value *points = schema_value_of(group, "points");
-    const double aside = BODY_GEOMETRY_ASIDE * f->geometry.spacing;
-    const dem_status status = dem_lattice_crossed(&f->lattice, points->reals, points->count / 2, aside, crossed, NULL);
-    bool any = false;
-    if (status != DEM_OK) return report(f, status, points->place, "");
-    for (dem_index t = 0; t < f->lattice.n_triangles; t++) {
-        keep[t] = keep[t] && !crossed[t];
-        any = any || crossed[t];
-    }
-    if (any) return DEM_OK;
-    namelist_errors_add(f->errors, points->place,
-                        "crack crosses no triangle of body %zu: its points are in the body's own coordinates",
-                        f->number);
-    return DEM_ERROR_MODEL;
-}
+/* Where cracks run. */
+typedef struct crack_rows {
+    const dem_lattice *lattice;
+    const bool *are_there; /* [n_triangles] */
+    dem_index begin, end;  /* the triangles by which a crack is found to be in the body */
+} crack_rows;
 
 /* Of a cell of squares both triangles stay, or none. */
 static void keep_cells(bool *keep, dem_index n_triangles)
@@ -422,16 +412,71 @@ static void keep_cells(bool *keep, dem_index n_triangles)
     for (dem_index t = 0; t + 1 < n_triangles; t += 2) keep[t] = keep[t + 1] = keep[t] && keep[t + 1];
 }
 
-/* \param keep, crossed  [n_triangles] room */
-static dem_status take_cracks(former *f, bool *keep, bool *crossed)
+/* \param crossed  [n_triangles] room
+ * \param[out] is_met  whether one of the triangles from `begin` on, before `end`, that are there is crossed */
+static dem_status mark_crack(const former *f, bool *crossed, bool *is_met, const crack_rows *rows, size_t k)
+{
+    const double aside = BODY_GEOMETRY_ASIDE * f->geometry.spacing;
+    const schema_value *points = schema_value_of(own(f, "crack", k), "points");
+    const dem_status status =
+        dem_lattice_crossed(rows->lattice, points->reals, points->count / 2, aside, crossed, NULL);
+    for (dem_index t = rows->begin; t < rows->end && status == DEM_OK; t++)
+        *is_met = *is_met || (rows->are_there[t] && crossed[t]);
+    return report(f, status, points->place, "");
+}
+
+/* What cracks take.  \param keep  [n_triangles] those that there are; those that are crossed become false */
+static dem_status mark_cracks(const former *f, bool *keep, const crack_rows *rows, bool *crossed)
+{
+    const dem_index n = rows->lattice->n_triangles;
+    size_t crack = 0;
+    for (size_t k = 0; k < schema_count(f->groups, "crack"); k++) {
+        if (own(f, "crack", k) == NULL) continue;
+        const dem_status status = mark_crack(f, crossed, &f->is_met[crack++], rows, k);
+        if (status != DEM_OK) return status;
+        for (dem_index t = 0; t < n; t++) keep[t] = keep[t] && !crossed[t];
+    }
+    if (body_geometry_has_squares(f->body)) keep_cells(keep, n);
+    return DEM_OK;
+}
+
+/* Of all triangles, or of rows as dem_private_rows_cut (shape/shape_slab.h) has them. */
+static dem_status cut_cracks(void *program, const dem_lattice *lattice, bool *keep, dem_index begin, dem_index end)
+{
+    const former *f = program;
+    const size_t n = (size_t)lattice->n_triangles;
+    bool *are_there = calloc(n + 1, sizeof *are_there), *crossed = calloc(n + 1, sizeof *crossed);
+    dem_status status = are_there != NULL && crossed != NULL ? DEM_OK : DEM_ERROR_MEMORY;
+    if (status == DEM_OK) {
+        memcpy(are_there, keep, n * sizeof *are_there);
+        status = mark_cracks(f, keep, &(crack_rows){lattice, are_there, begin, end}, crossed);
+    }
+    free(are_there);
+    free(crossed);
+    return status;
+}
+
+static dem_status check_cracks(const former *f)
+{
+    size_t crack = 0;
+    for (size_t k = 0; k < schema_count(f->groups, "crack"); k++) {
+        if (own(f, "crack", k) == NULL || f->is_met[crack++]) continue;
+        namelist_errors_add(f->errors, schema_value_of(own(f, "crack", k), "points")->place,
+                            "crack crosses no triangle of body %zu: its points are in the body's own coordinates",
+                            f->number);
+        return DEM_ERROR_MODEL;
+    }
+    return DEM_OK;
+}
+
+/* \param keep  [n_triangles] room */
+static dem_status take_cracks(former *f, bool *keep)
 {
     const dem_index n = f->lattice.n_triangles;
-    dem_status status = DEM_OK;
     memset(keep, 1, (size_t)n * sizeof *keep);
-    for (size_t k = 0; status == DEM_OK && k < schema_count(f->groups, "crack"); k++)
-        if (own(f, "crack", k) != NULL) status = mark_crack(f, keep, crossed, own(f, "crack", k));
+    dem_status status = cut_cracks(f, &f->lattice, keep, 0, n);
+    if (status == DEM_OK) status = check_cracks(f);
     if (status != DEM_OK) return status;
-    if (body_geometry_has_squares(f->body)) keep_cells(keep, n);
     status = dem_lattice_trim(&f->lattice, keep);
     if (status == DEM_ERROR_MODEL)
         namelist_errors_add(f->errors, f->body->place, "body %zu: its cracks leave none of %lld triangles", f->number,
@@ -440,13 +485,17 @@ static dem_status take_cracks(former *f, bool *keep, bool *crossed)
     return status;
 }
 
+static bool list_cracks(former *f)
+{
+    f->is_met = calloc(count_own(f, "crack") + 1, sizeof *f->is_met);
+    return f->is_met != NULL;
+}
+
 static dem_status crack(former *f)
 {
-    const size_t n = (size_t)f->lattice.n_triangles + 1;
-    bool *keep = malloc(n * sizeof *keep), *crossed = malloc(n * sizeof *crossed);
-    const dem_status status = keep != NULL && crossed != NULL ? take_cracks(f, keep, crossed) : DEM_ERROR_MEMORY;
+    bool *keep = calloc((size_t)f->lattice.n_triangles + 1, sizeof *keep);
+    const dem_status status = keep != NULL && list_cracks(f) ? take_cracks(f, keep) : DEM_ERROR_MEMORY;
     free(keep);
-    free(crossed);
     return status;
 }
 
@@ -485,12 +534,24 @@ static former begin(const schema_deck *groups, size_t k, const char *folder, nam
     return f;
 }
 
-static dem_status cut_slab(dem_slab *slab, former *f, dem_index **rows, body_range range)
+/* What is found of the whole comes from the slab that counts rows: it has no `counts` yet. */
+static dem_status cut_rows(dem_slab *slab, former *f, dem_index **counts, body_range range)
+{
+    const bool are_counted = *counts == NULL;
+    dem_private_rows rows = {.cut = count_own(f, "crack") > 0 ? cut_cracks : NULL, .program = f};
+    f->shape.numbered = false;
+    if (!list_cracks(f)) return DEM_ERROR_MEMORY;
+    const dem_status status =
+        report(f, dem_private_slab_between(slab, &f->shape, &rows, counts, range.begin, range.end), f->body->place, "");
+    f->geometry.report = rows.report;
+    f->geometry.n_cracked = rows.n_taken;
+    return status == DEM_OK && are_counted ? check_cracks(f) : status;
+}
+
+static dem_status cut_slab(dem_slab *slab, former *f, dem_index **counts, body_range range)
 {
     dem_status status = make_shape(f);
-    f->shape.numbered = false;
-    if (status == DEM_OK)
-        status = report(f, dem_private_slab_between(slab, &f->shape, rows, range.begin, range.end), f->body->place, "");
+    if (status == DEM_OK) status = cut_rows(slab, f, counts, range);
     if (status == DEM_OK) status = weigh(f);
     return status == DEM_OK && slab->n_own > 0 ? jitter(f, slab) : status;
 }

@@ -40,14 +40,14 @@ typedef struct body_keys {
     const schema_deck *groups;
     size_t k;
     const char *folder;
-    dem_index *
-        *rows; /* for slabs: NULL in it, or what an earlier one left: counts of rows, ranges of nodes; to be freed */
+    dem_index **rows; /* for slabs: NULL in it, or what an earlier one left, which is to be freed: counts of rows, or
+                         ranges of nodes. The first number says how many follow */
 } body_keys;
 
-/* The same as body_geometry_triangulate() of a slab of a body, which is no mesh, has a stepped edge and no cracks. A
- * lattice file has no geometry, and gives all that it has of the nodes in the range, wherever they are in a row. Where
- * there are no such rows, or nodes, the slab has the numbers of nodes and triangles of the body, and no own nodes. Free
- * with dem_slab_free(). */
+/* The same as body_geometry_triangulate() of a slab of a body, which is no mesh; n_cracked and the report are those of
+ * the whole where the slab had no `rows` yet, else 0. A lattice file has no geometry, and gives all that it has of the
+ * nodes in the range, wherever they are in a row. Where there are no such rows, or nodes, the slab has the numbers of
+ * nodes and triangles of the body, and no own nodes. Free with dem_slab_free(). */
 dem_status body_geometry_slab(dem_slab *slab, body_geometry *out, const body_keys *body, body_range range,
                               namelist_errors *errors);
 

@@ -26,7 +26,7 @@ static bool is_plain(const schema_deck *groups, size_t k)
 {
     const schema_instance *body = schema_get(groups, "body", k);
     if (is_of_file(groups, k) && schema_given(schema_get(groups, "solver", 0), "v_scale")) return false;
-    return !schema_is(body, "shape", "mesh") && !schema_is(body, "outline", "smooth") && !rigid_keys_ask(body);
+    return !schema_is(body, "shape", "mesh") && !rigid_keys_ask(body);
 }
 
 static bool is_elastic(const schema_deck *groups)
@@ -46,9 +46,7 @@ static bool shows_fragments(const schema_instance *output)
 
 bool deck_slabs_suit(const schema_deck *groups)
 {
-    static const char *const of_the_whole[] = {"crack", "weakness"};
-    for (size_t k = 0; k < sizeof of_the_whole / sizeof *of_the_whole; k++)
-        if (schema_count(groups, of_the_whole[k]) > 0) return false;
+    if (schema_count(groups, "weakness") > 0) return false;
     for (size_t k = 0; k < schema_count(groups, "body"); k++)
         if (!is_plain(groups, k)) return false;
     return is_elastic(groups) && !shows_fragments(schema_get(groups, "output", 0));
@@ -313,6 +311,7 @@ typedef struct body_look {
     const maker *maker;
     size_t k;
     body_facts *facts;
+    body_geometry counted; /* what is known since rows were counted */
     slab_survey survey;
     body_inclusions inclusions;
     double moment[2];       /* kg m, sum of masses times places */
@@ -377,6 +376,8 @@ static dem_status conclude(body_look *l, dem_lattice *strip, slab_body *body)
     body_facts *f = l->facts;
     if (!slab_survey_is_one(&l->survey) || !all_are_met(&l->inclusions)) return DEM_ERROR_MODEL;
     f->is_strip = true;
+    f->geometry.report = l->counted.report;
+    f->geometry.n_cracked = l->counted.n_cracked;
     f->further = copies_count(schema_get(l->maker->groups, "body", l->k)) - 1;
     for (int c = 0; c < 2; c++) body->centre[c] = 1.0 / f->mass * l->moment[c];
     if (!slab_survey_take_strip(strip, &l->survey)) return DEM_ERROR_MEMORY;
@@ -390,7 +391,9 @@ static dem_status conclude(body_look *l, dem_lattice *strip, slab_body *body)
 /* In n slabs. */
 static dem_status look_at_body(deck_slabs_found *out, slab_body *body, const maker *m, size_t k, dem_index n)
 {
-    body_look l = {.maker = m, .k = k, .facts = &out->bodies[k], .at_once = out->at_once ? &out->lattice : NULL};
+    body_facts *facts = &out->bodies[k];
+    body_look l = {
+        .maker = m, .k = k, .facts = facts, .counted = facts->geometry, .at_once = out->at_once ? &out->lattice : NULL};
     *l.facts = (body_facts){.least_angle = is_of_file(m->groups, k) ? 0.0 : (double)INFINITY};
     dem_status status = look_at_slabs(&l, n);
     if (status == DEM_OK) status = conclude(&l, &out->strips[k], body);
@@ -399,11 +402,11 @@ static dem_status look_at_body(deck_slabs_found *out, slab_body *body, const mak
     return status;
 }
 
-static dem_status count(slab_body *body, const maker *m, size_t k)
+/* \param[out] geometry  tells of cracks and smooth edges, which no later slab does */
+static dem_status count(slab_body *body, body_geometry *geometry, const maker *m, size_t k)
 {
     dem_slab none;
-    body_geometry geometry;
-    const dem_status status = triangulate(&none, &geometry, m, k, (body_range){0, 0});
+    const dem_status status = triangulate(&none, geometry, m, k, (body_range){0, 0});
     body->n_nodes = none.n_nodes;
     body->n_triangles = none.n_triangles;
     dem_slab_free(&none);
@@ -414,7 +417,8 @@ static dem_status count(slab_body *body, const maker *m, size_t k)
 static dem_status look_at_all(deck_slabs_found *out, deck_slabs *slabs, const maker *m)
 {
     dem_status status = DEM_OK;
-    for (size_t k = 0; k < out->n && status == DEM_OK; k++) status = count(&slabs->bodies[k], m, k);
+    for (size_t k = 0; k < out->n && status == DEM_OK; k++)
+        status = count(&slabs->bodies[k], &out->bodies[k].geometry, m, k);
     const dem_index all = count_nodes(m), n = count_looks(slabs, m);
     if (status == DEM_OK && all < slabs->n) return DEM_ERROR_MODEL; /* a rank would have none */
     for (size_t k = 0; k < out->n && status == DEM_OK; k++) {
@@ -489,10 +493,10 @@ void deck_slabs_free(deck_slabs *slabs)
 
 /* ---- on all ranks ---- */
 
-/* What is known of each body, numbers of nodes that are held, and a text behind them. All ranks are the same program on
- * machines of one kind. */
+/* What is known of each body; numbers of nodes that are held, and of each body its `rows`, or 0 for none; a text behind
+ * them. All ranks are the same program on machines of one kind. */
 typedef struct recipe {
-    size_t n_bodies, n_held;
+    size_t n_bodies, n_held, n_rows; /* n_rows: numbers of all lists */
     slab_body bodies[];
 } recipe;
 
@@ -501,24 +505,61 @@ static const dem_index *held_in(const recipe *r)
     return (const dem_index *)(const void *)(r->bodies + r->n_bodies);
 }
 
+static const dem_index *rows_in(const recipe *r)
+{
+    return held_in(r) + r->n_held;
+}
+
 static const char *text_in(const recipe *r)
 {
-    return (const char *)(held_in(r) + r->n_held);
+    return (const char *)(rows_in(r) + r->n_rows);
+}
+
+static size_t count_numbers(const dem_index *list)
+{
+    return list != NULL ? 1 + (size_t)list[0] : 1;
+}
+
+static char *put_rows(char *to, const deck_slabs *slabs)
+{
+    static const dem_index none = 0;
+    for (size_t k = 0; k < slabs->n_bodies; k++) {
+        const size_t size = count_numbers(slabs->rows[k]) * sizeof none;
+        memcpy(to, slabs->rows[k] != NULL ? slabs->rows[k] : &none, size);
+        to += size;
+    }
+    return to;
 }
 
 void *deck_slabs_recipe(size_t *size, const deck_slabs *slabs, const char *echo)
 {
     const size_t bodies = slabs->n_bodies * sizeof *slabs->bodies, held = (size_t)slabs->n_held * sizeof *slabs->held;
     const size_t length = strlen(echo) + 1;
-    recipe *r = malloc(sizeof *r + bodies + held + length);
+    size_t n_rows = 0;
+    for (size_t k = 0; k < slabs->n_bodies; k++) n_rows += count_numbers(slabs->rows[k]);
+    *size = sizeof(recipe) + bodies + held + n_rows * sizeof **slabs->rows + length;
+    recipe *r = malloc(*size);
     if (r == NULL) return NULL;
-    *r = (recipe){slabs->n_bodies, (size_t)slabs->n_held};
+    *r = (recipe){slabs->n_bodies, (size_t)slabs->n_held, n_rows};
     char *to = (char *)r->bodies;
     memcpy(to, slabs->bodies, bodies);
     if (held > 0) memcpy(to + bodies, slabs->held, held);
-    memcpy(to + bodies + held, echo, length);
-    *size = sizeof *r + bodies + held + length;
+    memcpy(put_rows(to + bodies + held, slabs), echo, length);
     return r;
+}
+
+/* Copies of the lists, [n_bodies]; NULL where memory runs out. */
+static dem_index **take_rows(const recipe *r)
+{
+    dem_index **rows = calloc(r->n_bodies + 1, sizeof *rows);
+    const dem_index *from = rows_in(r);
+    for (size_t k = 0; k < r->n_bodies && rows != NULL; k++) {
+        const size_t n = count_numbers(from);
+        if (from[0] > 0) rows[k] = malloc(n * sizeof *from);
+        if (rows[k] != NULL) memcpy(rows[k], from, n * sizeof *from);
+        from += n;
+    }
+    return rows;
 }
 
 dem_status deck_slabs_make(void *program, const void *bytes, size_t size, dem_index part, dem_index n_parts,
@@ -533,7 +574,7 @@ dem_status deck_slabs_make(void *program, const void *bytes, size_t size, dem_in
     bool good = namelist_parse(&list, text, size - (size_t)(text - (const char *)bytes) - 1, &errors);
     if (good) good = schema_resolve(&groups, &list, &errors);
     dem_status status = good ? DEM_OK : DEM_ERROR_MEMORY;
-    dem_index **rows = calloc(r->n_bodies + 1, sizeof *rows);
+    dem_index **rows = take_rows(r);
     const maker m = {&groups, "", r->bodies, held_in(r), (dem_index)r->n_held, rows, &errors};
     if (good) body_drop_unused(&groups);
     if (rows == NULL) status = DEM_ERROR_MEMORY;

@@ -7,8 +7,8 @@
 #include "body.h"
 #include "lattice_facts.h"
 
-/* Whether the keys ask for nothing that takes the whole: elastic bodies with stepped edges, without cracks, or lattice
- * files, which are looked at later. */
+/* Whether the keys ask for nothing that takes the whole: elastic bodies that are no meshes; lattice files are
+ * looked at later. */
 bool deck_slabs_suit(const schema_deck *groups);
 
 /* What makes of slabs of a body, or of one of its copies, besides the keys, what they are in the whole. */

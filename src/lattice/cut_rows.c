@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A node stays if one of its triangles does, which are between its row and the ones beside. So of a range of rows it is
- * known what stays of all but the first and the last. Numbers follow from counts of what is left in the rows before. */
+/* A node stays if one of its triangles does, which have nodes in its row and in those beside, as many as triangles are
+ * high. So of a range of rows it is known what stays of all but these first and last ones. Numbers follow from counts
+ * of what is left in the rows before. */
 #include "lattice/cut_rows.h"
 
 #include <stdlib.h>
@@ -19,30 +20,21 @@ static dem_status lacks_memory(const grid *rows)
 
 /* ---- a range of rows ---- */
 
-/* Those of the whole. */
-static grid rows_of(const grid *whole, dem_index first, dem_index last)
-{
-    grid rows = *whole;
-    rows.first = first > whole->first ? first : whole->first;
-    rows.last = last < whole->last ? last : whole->last;
-    return rows;
-}
-
 /* How many nodes of a grid are in rows before `row`, and triangles likewise. */
 static dem_index nodes_below(const grid *g, dem_index row)
 {
-    const grid before = rows_of(g, g->first, row - 1);
+    const grid before = grid_between(g, g->first, row - 1);
     return grid_count_nodes(&before);
 }
 
 static dem_index triangles_below(const grid *g, dem_index row)
 {
-    const grid strips = rows_of(g, g->first, row);
+    const grid strips = grid_between(g, g->first, row);
     return grid_count_triangles(&strips);
 }
 
 typedef struct range {
-    grid rows;
+    cut_range at;
     dem_lattice lattice; /* all of them */
     bool *keep;          /* [n_triangles] */
     bool *stays;         /* [n_nodes] whether one of the triangles here that stay has the node */
@@ -63,16 +55,17 @@ static void mark_nodes(bool *marked, const dem_lattice *l, const bool *keep)
         if (keep[k / 3]) marked[l->triangles[k]] = true;
 }
 
-/* To be closed after a failure, too. */
-static dem_status open_range(range *g, const cut_rows *c, dem_index first, dem_index last)
+/* Rows from `first` to `last` are the own ones, with some beside on each side. To be closed after a failure, too. */
+static dem_status open_range(range *g, const cut_rows *c, dem_index first, dem_index last, dem_index beside)
 {
-    *g = (range){.rows = rows_of(&c->whole, first, last), .lattice = dem_lattice_empty()};
-    TRY(grid_lattice(&g->lattice, &g->rows));
+    const cut_range at = {grid_between(&c->whole, first - beside, last + beside), grid_between(&c->whole, first, last)};
+    *g = (range){.at = at, .lattice = dem_lattice_empty()};
+    TRY(grid_lattice(&g->lattice, &at.rows));
     g->keep = lattice_zeros(g->lattice.n_triangles, sizeof *g->keep);
     g->stays = lattice_zeros(g->lattice.n_nodes, sizeof *g->stays);
-    if (g->keep == NULL || g->stays == NULL) return lacks_memory(&g->rows);
+    if (g->keep == NULL || g->stays == NULL) return lacks_memory(&at.rows);
     memset(g->keep, true, (size_t)g->lattice.n_triangles * sizeof *g->keep);
-    if (c->mark != NULL) TRY(c->mark(c->context, &g->lattice, g->keep));
+    if (c->mark != NULL) TRY(c->mark(c->context, &at, &g->lattice, g->keep));
     mark_nodes(g->stays, &g->lattice, g->keep);
     return DEM_OK;
 }
@@ -87,19 +80,22 @@ static dem_index count(const bool *flags, dem_index begin, dem_index end)
 /* What stays in rows from `first` on, before `end`; of triangles those above each row. */
 static dem_index count_nodes(const range *g, dem_index first, dem_index end)
 {
-    return count(g->stays, nodes_below(&g->rows, first), nodes_below(&g->rows, end));
+    return count(g->stays, nodes_below(&g->at.rows, first), nodes_below(&g->at.rows, end));
 }
 
 static dem_index count_triangles(const range *g, dem_index first, dem_index end)
 {
-    return count(g->keep, triangles_below(&g->rows, first), triangles_below(&g->rows, end));
+    return count(g->keep, triangles_below(&g->at.rows, first), triangles_below(&g->at.rows, end));
 }
 
 /* ---- counts of all rows ---- */
 
 /* What is left in the rows before each, from the first one on, and before the end. NULL: all is. */
 typedef struct row_counts {
-    dem_index *nodes, *triangles; /* [rows + 1], in one array */
+    dem_index *nodes, *triangles; /* [rows + 1] */
+    dem_index *joined;            /* [rows + 1] 1: no slab begins with the row, as a triangle above it has a node below.
+                                     Ranks number triangles with their lowest nodes, slab by slab */
+    dem_index *list;              /* [1 + 3 (rows + 1)] how many numbers follow, and these arrays */
 } row_counts;
 
 static dem_index count_rows(const cut_rows *c)
@@ -107,9 +103,11 @@ static dem_index count_rows(const cut_rows *c)
     return c->whole.last - c->whole.first + 1;
 }
 
-static row_counts counts_in(dem_index *array, const cut_rows *c)
+static row_counts counts_in(dem_index *list)
 {
-    return array != NULL ? (row_counts){array, array + count_rows(c) + 1} : (row_counts){NULL, NULL};
+    if (list == NULL) return (row_counts){0};
+    const dem_index n = list[0] / 3;
+    return (row_counts){list + 1, list + 1 + n, list + 1 + 2 * n, list};
 }
 
 static dem_index nodes_before(const cut_rows *c, const row_counts *n, dem_index row)
@@ -122,15 +120,25 @@ static dem_index triangles_before(const cut_rows *c, const row_counts *n, dem_in
     return n->triangles != NULL ? n->triangles[row - c->whole.first] : triangles_below(&c->whole, row);
 }
 
+/* Whether a triangle between this row and the next one has a node below them. */
+static bool hangs_down(const range *g, dem_index row)
+{
+    const dem_index above = nodes_below(&g->at.rows, row), end = 3 * triangles_below(&g->at.rows, row + 1);
+    for (dem_index k = 3 * triangles_below(&g->at.rows, row); k < end; k++)
+        if (g->keep[k / 3] && g->lattice.triangles[k] < above) return true;
+    return false;
+}
+
 /* Of rows from `first` on, before `end`. */
 static dem_status count_some(row_counts *n, const cut_rows *c, dem_index first, dem_index end)
 {
     range g;
-    const dem_status status = open_range(&g, c, first - 1, end);
+    const dem_status status = open_range(&g, c, first, end - 1, c->height);
     for (dem_index row = first; status == DEM_OK && row < end; row++) {
         const dem_index k = row - c->whole.first;
         n->nodes[k + 1] = n->nodes[k] + count_nodes(&g, row, row + 1);
         n->triangles[k + 1] = n->triangles[k] + count_triangles(&g, row, row + 1);
+        n->joined[k] = c->height > 1 && hangs_down(&g, row);
     }
     close_range(&g);
     return status;
@@ -139,11 +147,14 @@ static dem_status count_some(row_counts *n, const cut_rows *c, dem_index first, 
 static dem_status count_all(row_counts *n, const cut_rows *c)
 {
     const grid *w = &c->whole;
-    const dem_index some = 1 + most_counted / (w->reach + 1);
+    const dem_index many = 1 + most_counted / (w->reach + 1), some = many > c->least ? many : c->least;
     *n = (row_counts){0};
     if (c->mark == NULL) return DEM_OK;
-    *n = counts_in(lattice_zeros(2 * (count_rows(c) + 1), sizeof *n->nodes), c);
-    if (n->nodes == NULL) return lacks_memory(w);
+    const dem_index n_numbers = 3 * (count_rows(c) + 1);
+    dem_index *list = lattice_zeros(1 + n_numbers, sizeof *list);
+    if (list == NULL) return lacks_memory(w);
+    list[0] = n_numbers;
+    *n = counts_in(list);
     for (dem_index row = w->first; row <= w->last; row += some)
         TRY(count_some(n, c, row, row + some <= w->last ? row + some : w->last + 1));
     return DEM_OK;
@@ -156,11 +167,22 @@ static bool is_empty(const cut_rows *c, const row_counts *n, dem_index row)
     return nodes_before(c, n, row) == nodes_before(c, n, row + 1);
 }
 
-static dem_index count_filled(const cut_rows *c, const row_counts *n)
+static bool is_joined(const cut_rows *c, const row_counts *n, dem_index row)
 {
-    dem_index filled = 0;
-    for (dem_index row = c->whole.first; row <= c->whole.last; row++) filled += !is_empty(c, n, row);
-    return filled;
+    return n->joined != NULL && n->joined[row - c->whole.first] != 0;
+}
+
+/* Whether a slab may begin with a row, which then has nodes. */
+static bool may_begin(const cut_rows *c, const row_counts *n, dem_index row)
+{
+    return !is_empty(c, n, row) && !is_joined(c, n, row);
+}
+
+static dem_index count_beginnings(const cut_rows *c, const row_counts *n)
+{
+    dem_index beginnings = 0;
+    for (dem_index row = c->whole.first; row <= c->whole.last; row++) beginnings += may_begin(c, n, row);
+    return beginnings;
 }
 
 /* Of n rows each part has n/n_parts, and the first ones have one more. */
@@ -168,74 +190,72 @@ static grid own_rows_evenly(const grid *whole, dem_index part, dem_index n_parts
 {
     const dem_index n = whole->last - whole->first + 1, each = n / n_parts, more = n % n_parts;
     const dem_index first = whole->first + part * each + (part < more ? part : more);
-    return rows_of(whole, first, first + each - (part < more ? 0 : 1));
+    return grid_between(whole, first, first + each - (part < more ? 0 : 1));
 }
 
 /* Parts end where they have, with those before, their share of the nodes, and have one row with nodes at least.
- * \param filled  number of rows with nodes */
-static grid own_rows_by_nodes(const cut_rows *c, const row_counts *n, dem_index filled, dem_index part,
-                              dem_index n_parts)
+ * \param left  rows with nodes with which a slab may begin */
+static grid own_rows_by_nodes(const cut_rows *c, const row_counts *n, dem_index left, dem_index part, dem_index n_parts)
 {
     const double share = (double)nodes_before(c, n, c->whole.last + 1) / (double)n_parts;
     dem_index first = c->whole.first, row = first;
     for (dem_index k = 0; k <= part; k++) {
         first = row;
         bool has_nodes = false, has_share = false;
-        while (row <= c->whole.last && !(has_nodes && (has_share || filled == n_parts - 1 - k))) {
-            filled -= !is_empty(c, n, row);
+        while (row <= c->whole.last &&
+               !(has_nodes && (has_share || left == n_parts - 1 - k) && !is_joined(c, n, row))) {
+            left -= may_begin(c, n, row);
             has_nodes = has_nodes || !is_empty(c, n, row);
             row++;
             has_share = k + 1 < n_parts && (double)nodes_before(c, n, row) >= (double)(k + 1) * share;
         }
     }
-    return rows_of(&c->whole, first, row - 1);
+    return grid_between(&c->whole, first, row - 1);
 }
 
 static dem_status find_own_rows(grid *own, const cut_rows *c, const row_counts *n, dem_index part, dem_index n_parts)
 {
-    const dem_index filled = n->nodes != NULL ? count_filled(c, n) : count_rows(c);
-    CHECK(filled > 0, DEM_ERROR_MODEL, "none of %lld nodes is left", (long long)grid_count_nodes(&c->whole));
-    CHECK(n_parts <= filled, DEM_ERROR_MODEL, "%lld rows of nodes cannot be %lld slabs", (long long)filled,
+    const dem_index most = n->nodes != NULL ? count_beginnings(c, n) : count_rows(c);
+    CHECK(most > 0, DEM_ERROR_MODEL, "none of %lld nodes is left", (long long)grid_count_nodes(&c->whole));
+    CHECK(n_parts <= most, DEM_ERROR_MODEL, "%lld rows of nodes cannot be %lld slabs", (long long)most,
           (long long)n_parts);
-    *own =
-        n->nodes != NULL ? own_rows_by_nodes(c, n, filled, part, n_parts) : own_rows_evenly(&c->whole, part, n_parts);
+    *own = n->nodes != NULL ? own_rows_by_nodes(c, n, most, part, n_parts) : own_rows_evenly(&c->whole, part, n_parts);
     return DEM_OK;
 }
 
 /* ---- a slab ---- */
 
-/* Of what is left of the rows about own ones: two rows on each side, of which the outer ones tell whether the nodes of
- * the inner ones stay, and are on the boundary. */
+/* Of what is left of the rows about own ones: as many rows on each side as triangles are high have the rim, and as many
+ * beyond these tell whether its nodes stay, and are on the boundary. */
 typedef struct draft {
     dem_slab slab;
-    dem_index outer, below; /* nodes in rows before the row below own ones; and in this one */
-    dem_index begin, end;   /* triangles at own nodes */
-    unsigned char *flags;   /* [n_nodes] not 0: on the boundary */
-    bool *keep;             /* [n_triangles] those at own nodes */
-    bool *marked;           /* [n_nodes] the other nodes of these: the rim */
+    dem_index own;        /* where own nodes begin */
+    unsigned char *flags; /* [n_nodes] not 0: on the boundary */
+    bool *keep;           /* [n_triangles] those at own nodes */
+    bool *marked;         /* [n_nodes] the other nodes of these: the rim */
 } draft;
 
 static void place(draft *d, const cut_rows *c, const row_counts *n, const grid *own)
 {
-    const dem_index first = own->first > c->whole.first ? own->first - 1 : own->first;
     d->slab.n_nodes = nodes_before(c, n, c->whole.last + 1);
     d->slab.n_triangles = triangles_before(c, n, c->whole.last + 1);
     d->slab.first_node = nodes_before(c, n, own->first);
     d->slab.n_own = nodes_before(c, n, own->last + 1) - d->slab.first_node;
-    d->slab.first_triangle = triangles_before(c, n, first);
 }
 
 /* Takes the lattice of the range over. */
-static dem_status cut_range(draft *d, range *g, const grid *own)
+static dem_status cut_out(draft *d, range *g)
 {
-    d->outer = count_nodes(g, g->rows.first, own->first - 1);
-    d->below = count_nodes(g, own->first - 1, own->first);
-    d->begin = count_triangles(g, g->rows.first, own->first - 1);
-    d->end = d->begin + count_triangles(g, own->first - 1, own->last + 1);
+    d->own = count_nodes(g, g->at.rows.first, g->at.own.first);
     TRY(dem_lattice_trim(&g->lattice, g->keep));
     d->slab.lattice = g->lattice;
     g->lattice = dem_lattice_empty();
     return DEM_OK;
+}
+
+static bool is_own(const draft *d, dem_index i)
+{
+    return i >= d->own && i < d->own + d->slab.n_own;
 }
 
 static dem_status mark(draft *d)
@@ -246,10 +266,20 @@ static dem_status mark(draft *d)
     d->marked = lattice_zeros(l->n_nodes, sizeof *d->marked);
     CHECK(d->flags && d->keep && d->marked, DEM_ERROR_MEMORY, "out of memory for a slab of %lld nodes",
           (long long)l->n_nodes);
-    for (dem_index t = d->begin; t < d->end; t++) d->keep[t] = true;
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++)
+        if (is_own(d, l->triangles[k])) d->keep[k / 3] = true;
     mark_nodes(d->marked, l, d->keep);
-    for (dem_index i = d->outer + d->below; i < d->outer + d->below + d->slab.n_own; i++) d->marked[i] = false;
+    for (dem_index i = d->own; i < d->own + d->slab.n_own; i++) d->marked[i] = false;
     return DEM_OK;
+}
+
+/* Of the triangles at own nodes. \param before  of the whole, triangles in rows before the range */
+static void number_triangles(draft *d, dem_index before)
+{
+    const dem_index all = d->slab.lattice.n_triangles, n = count(d->keep, 0, all);
+    dem_index first = 0;
+    while (first < all && !d->keep[first]) first++;
+    d->slab.first_triangle = n > 0 && count(d->keep, first, first + n) == n ? before + first : -1;
 }
 
 static bool has_rim(const draft *d, const dem_index *corner)
@@ -279,15 +309,15 @@ static dem_status list_rim(draft *d)
 {
     dem_slab *s = &d->slab;
     const dem_lattice *l = &s->lattice;
-    const dem_index own = d->outer + d->below, n = count(d->marked, 0, l->n_nodes);
+    const dem_index n = count(d->marked, 0, l->n_nodes);
     dem_index k = 0;
     s->rim = lattice_zeros(n, sizeof *s->rim);
     s->rim_boundary = lattice_zeros(n, sizeof *s->rim_boundary);
     CHECK(s->rim && s->rim_boundary, DEM_ERROR_MEMORY, "out of memory for a slab of %lld nodes", (long long)l->n_nodes);
     for (dem_index i = 0; i < l->n_nodes; i++) {
         if (!d->marked[i]) continue;
-        s->first_own += i < own;
-        s->rim[k] = s->first_node + (i - own);
+        s->first_own += i < d->own;
+        s->rim[k] = s->first_node + (i - d->own);
         s->rim_boundary[k++] = d->flags[i] != 0;
     }
     return DEM_OK;
@@ -299,11 +329,12 @@ static void *shrink(void *array, dem_index n, size_t size)
     return smaller != NULL ? smaller : array;
 }
 
-static dem_status finish(draft *d, range *g, const grid *own)
+static dem_status finish(draft *d, range *g, dem_index triangles_before_range)
 {
     dem_lattice *l = &d->slab.lattice;
-    TRY(cut_range(d, g, own));
+    TRY(cut_out(d, g));
     TRY(mark(d));
+    number_triangles(d, triangles_before_range);
     TRY(mark_boundary(d));
     TRY(list_rim(d));
     TRY(dem_lattice_trim(l, d->keep));
@@ -316,9 +347,9 @@ static dem_status make(dem_slab *out, const cut_rows *c, const row_counts *n, co
 {
     draft d = {.slab = dem_slab_empty()};
     range g;
-    dem_status status = open_range(&g, c, own->first - 2, own->last + 2);
+    dem_status status = open_range(&g, c, own->first, own->last, 2 * c->height);
     place(&d, c, n, own);
-    if (status == DEM_OK) status = finish(&d, &g, own);
+    if (status == DEM_OK) status = finish(&d, &g, triangles_before(c, n, g.at.rows.first));
     if (status == DEM_OK)
         *out = d.slab;
     else
@@ -339,15 +370,15 @@ dem_status cut_rows_slab(dem_slab *out, const cut_rows *c, dem_index part, dem_i
     dem_status status = count_all(&n, c);
     if (status == DEM_OK) status = find_own_rows(&own, c, &n, part, n_parts);
     if (status == DEM_OK) status = make(out, c, &n, &own);
-    free(n.nodes);
+    free(n.list);
     return status;
 }
 
-/* The first row before which there are so many nodes. */
+/* The first row before which there are so many nodes, and with which a slab may begin. */
 static dem_index row_behind(const cut_rows *c, const row_counts *n, dem_index nodes)
 {
     dem_index row = c->whole.first;
-    while (row <= c->whole.last && nodes_before(c, n, row) < nodes) row++;
+    while (row <= c->whole.last && (nodes_before(c, n, row) < nodes || is_joined(c, n, row))) row++;
     return row;
 }
 
@@ -357,7 +388,7 @@ static dem_status make_between(dem_slab *out, const cut_rows *c, const row_count
     const dem_index n_nodes = nodes_before(c, n, c->whole.last + 1);
     CHECK(n_nodes > 0, DEM_ERROR_MODEL, "none of %lld nodes is left", (long long)grid_count_nodes(&c->whole));
     if (first <= last) {
-        const grid own = rows_of(&c->whole, first, last);
+        const grid own = grid_between(&c->whole, first, last);
         return make(out, c, n, &own);
     }
     *out = dem_slab_empty();
@@ -368,10 +399,10 @@ static dem_status make_between(dem_slab *out, const cut_rows *c, const row_count
 
 dem_status cut_rows_between(dem_slab *out, const cut_rows *c, dem_index **counts, dem_index begin, dem_index end)
 {
-    row_counts n = counts_in(*counts, c);
+    row_counts n = counts_in(*counts);
     dem_status status = *counts != NULL ? DEM_OK : count_all(&n, c);
     if (status == DEM_OK) status = make_between(out, c, &n, begin, end);
-    *counts = status == DEM_OK ? n.nodes : NULL;
-    if (status != DEM_OK) free(n.nodes);
+    *counts = status == DEM_OK ? n.list : NULL;
+    if (status != DEM_OK) free(n.list);
     return status;
 }

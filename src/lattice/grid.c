@@ -23,6 +23,19 @@ static bool is_wide(const grid *g, dem_index row)
     return g->is_square || row % 2 == 0;
 }
 
+grid grid_between(const grid *whole, dem_index first, dem_index last)
+{
+    grid rows = *whole;
+    rows.first = first > whole->first ? first : whole->first;
+    rows.last = last < whole->last ? last : whole->last;
+    return rows;
+}
+
+double grid_height(const grid *g)
+{
+    return g->is_square ? g->spacing : sqrt3_2 * g->spacing;
+}
+
 /* A row counts `reach` nodes, and a wide one one more. Every other row of triangles is wide. */
 dem_index grid_count_nodes(const grid *g)
 {
@@ -39,7 +52,7 @@ dem_index grid_count_triangles(const grid *g)
 
 static double *make_nodes(const grid *g)
 {
-    const double height = g->is_square ? g->spacing : sqrt3_2 * g->spacing;
+    const double height = grid_height(g);
     double *x = lattice_zeros(grid_count_nodes(g), 2 * sizeof *x), *next = x;
     for (dem_index row = g->first; x != NULL && row <= g->last; row++) {
         const dem_index reach = is_wide(g, row) ? g->reach : g->reach - 1;

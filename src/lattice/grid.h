@@ -29,6 +29,12 @@ dem_status grid_around_disc(grid *out, double reach, double spacing);
 /** Whether a node of such a grid is in its disc, edge included.  \param reach  double, m */
 bool grid_disc_has(void *reach, const double *x);
 
+/** Of the rows of a grid those from `first` to `last`. */
+grid grid_between(const grid *whole, dem_index first, dem_index last);
+
+/** Between two rows, m. */
+double grid_height(const grid *g);
+
 /** The number of nodes in rows first .. last, and of triangles between them; 0 for last < first. */
 dem_index grid_count_nodes(const grid *g);
 dem_index grid_count_triangles(const grid *g);

@@ -55,14 +55,20 @@ static bool mark_squeezed(const dem_lattice *l, const double *x, unsigned char *
 }
 
 /* Moves the corners of such triangles half way back, all of them at once, until there are none: the order of triangles
- * does not matter. It ends, since the shifts of such corners go to 0 and their areas to what they were. */
-static void move_back(const dem_lattice *l, double *x, unsigned char *marked)
+ * does not matter. It ends, since the shifts of such corners go to 0 and their areas to what they were. A part does not
+ * know whether other triangles at these corners move them, too. */
+static dem_status move_back(const dem_lattice *l, const jitter_part *part, double *x, unsigned char *marked)
 {
-    while (mark_squeezed(l, x, marked))
+    while (mark_squeezed(l, x, marked)) {
+        CHECK(part->end - part->begin == l->n_nodes, DEM_ERROR_MODEL,
+              "triangles of a slab would keep less than %g of their areas: its lattice can be jittered as a whole",
+              least_area);
         for (dem_index i = 0; i < l->n_nodes; i++) {
             const vec2 before = vec2_at(l->x, i), shift = vec2_sub(vec2_at(x, i), before);
             if (marked[i] != 0) vec2_put(x, i, vec2_along(before, 0.5, shift));
         }
+    }
+    return DEM_OK;
 }
 
 static bool is_rim(const jitter_part *part, dem_index i)
@@ -111,8 +117,8 @@ dem_status jitter_move(dem_lattice *lattice, const jitter_part *part, double rad
         const vec2 shift = stays[i] != 0 ? (vec2){0.0, 0.0} : random_shift(seed, number_of(part, i), radius);
         vec2_put(x, i, vec2_add(vec2_at(lattice->x, i), shift));
     }
+    if (status == DEM_OK) status = move_back(lattice, part, x, stays);
     if (status == DEM_OK) {
-        move_back(lattice, x, stays);
         double *const old = lattice->x;
         lattice->x = x;
         x = old;

@@ -14,8 +14,9 @@ typedef struct jitter_part {
     const unsigned char *rim_boundary; /* [rim] 1: a node is on the boundary of the whole */
 } jitter_part;
 
-/** Moves the nodes of a part as dem_lattice_jitter() moves those of the whole, where no triangle is squeezed.
- *  \return DEM_ERROR_ARGUMENT, DEM_ERROR_MODEL, DEM_ERROR_MEMORY; nothing has changed then */
+/** Moves the nodes of a part as dem_lattice_jitter() moves those of the whole.
+ *  \return DEM_ERROR_ARGUMENT; DEM_ERROR_MODEL, also where a triangle of a part that has a rim would be squeezed;
+ *          DEM_ERROR_MEMORY; nothing has changed then */
 dem_status jitter_move(dem_lattice *lattice, const jitter_part *part, double radius, uint64_t seed);
 
 #endif

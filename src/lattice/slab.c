@@ -123,7 +123,7 @@ void dem_slab_free(dem_slab *slab)
 static dem_status make(dem_slab *out, const grid *whole, dem_index part, dem_index n_parts)
 {
     dem_slab made = dem_slab_empty();
-    TRY(cut_rows_slab(&made, &(cut_rows){.whole = *whole}, part, n_parts));
+    TRY(cut_rows_slab(&made, &(cut_rows){.whole = *whole, .height = 1}, part, n_parts));
     slab_give(out, &made);
     return DEM_OK;
 }

@@ -32,7 +32,7 @@ typedef struct draft {
     numbers found[LATTICE_ITEMS];  /* what the slab has: numbers of nodes, springs and triangles, ascending */
     numbers corner[LATTICE_ITEMS]; /* nodes of its springs and triangles, in the whole */
     numbers around;                /* corners of the triangles at the rim, three each */
-    dem_index *node_ranges;        /* [1 + 2 pieces] how many pieces there are, and the nodes of each: see range_of() */
+    dem_index *node_ranges;        /* [1 + 2 pieces] how many numbers follow, the nodes of each piece: see range_of() */
     bool are_known;                /* node_ranges have been found */
 } draft;
 
@@ -76,12 +76,12 @@ static dem_index *range_of(const draft *d, dem_index piece)
 static dem_status open_node_ranges(draft *d)
 {
     const dem_index n = count_pieces(&d->file, LATTICE_ENDS) + count_pieces(&d->file, LATTICE_CORNERS);
-    d->are_known = d->node_ranges != NULL && d->node_ranges[0] == n;
+    d->are_known = d->node_ranges != NULL && d->node_ranges[0] == 2 * n;
     if (d->are_known) return DEM_OK;
     free(d->node_ranges);
     d->node_ranges = lattice_zeros(1 + 2 * n, sizeof *d->node_ranges);
     CHECK_MEMORY(d->node_ranges);
-    d->node_ranges[0] = n;
+    d->node_ranges[0] = 2 * n;
     return DEM_OK;
 }
 

@@ -173,19 +173,25 @@ dem_status shape_find_grid(shape_grid *out, const shape *s)
 
 /* ---- lattice ---- */
 
+dem_status shape_place_rows(dem_lattice *rows, const shape_grid *g)
+{
+    double reach = g->reach;
+    if (reach > 0.0) TRY(dem_lattice_cut(rows, grid_disc_has, &reach));
+    dem_lattice_move(rows, 0.0, g->foot);
+    return DEM_OK;
+}
+
 dem_status shape_mesh(dem_lattice *out, const shape *s)
 {
     shape_grid g;
     dem_lattice lattice;
     TRY(shape_find_grid(&g, s));
     TRY(grid_lattice(&lattice, &g.rows));
-    const dem_status status = g.reach > 0.0 ? dem_lattice_cut(&lattice, grid_disc_has, &g.reach) : DEM_OK;
-    if (status == DEM_OK) {
-        dem_lattice_move(&lattice, 0.0, g.foot);
+    const dem_status status = shape_place_rows(&lattice, &g);
+    if (status == DEM_OK)
         *out = lattice;
-    } else {
+    else
         dem_lattice_free(&lattice);
-    }
     return status;
 }
 

@@ -62,6 +62,10 @@ dem_status shape_find_grid(shape_grid *out, const shape *s);
 /* Of each cell of a lattice of squares keeps both triangles or none.  \param keep [n_triangles] 0 or 1 */
 void shape_keep_cells(bool *keep, dem_index n_triangles);
 
+/* Takes out what of rows of such a grid is not in its disc, and puts the rest where the shape is.
+ * \return DEM_ERROR_MODEL if nothing is left */
+dem_status shape_place_rows(dem_lattice *rows, const shape_grid *g);
+
 /* Triangulation that has the rectangle or disc of its outline, or covers any other one, without voids; of a smooth
  * shape it covers all, with two spacings about it. Caller owns *out.
  * \return DEM_ERROR_MODEL if it had too many nodes */

@@ -32,7 +32,7 @@ static dem_status cut(dem_lattice *lattice, const shape *s, dem_shape_report *re
 {
     smoothing out = {0};
     if (!s->smooth) return shape_cut(lattice, s);
-    const dem_status status = smoothing_apply(&out, lattice, s);
+    const dem_status status = smoothing_apply(&out, lattice, s, NULL);
     report->n_rim = out.n_rim;
     report->n_off = out.n_off;
     report->n_cut = out.n_cut;

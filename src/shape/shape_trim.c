@@ -76,19 +76,20 @@ static dem_status half_create(half *s, const dem_lattice *l, const bool *keep, b
 
 /* Cutting leaves pieces of a few triangles in sharp corners, which go to the other side of the cut. Those of the
  * material are taken out. Those of a void are filled if they meet others in a node: the rim would pass it twice. */
-static dem_status move_small_pieces(bool *keep, const dem_lattice *l, bool kept)
+static dem_status move_small_pieces(bool *keep, const dem_lattice *l, bool kept, bool is_part)
 {
     half s;
     const dem_status status = half_create(&s, l, keep, kept);
     for (dem_index t = 0; status == DEM_OK && t < s.lattice.n_triangles; t++) {
         const dem_index size = s.size[s.piece[t]];
-        if (size <= small_piece && size < s.largest && (kept || s.touches[s.piece[t]])) keep[s.number[t]] = !kept;
+        const bool is_small = size <= small_piece && (is_part || size < s.largest);
+        if (is_small && (kept || s.touches[s.piece[t]])) keep[s.number[t]] = !kept;
     }
     half_free(&s);
     return status;
 }
 
-dem_status shape_trim(dem_lattice *l, const shape *s)
+dem_status shape_trim(dem_lattice *l, const shape *s, bool is_part)
 {
     bool *keep = calloc((size_t)l->n_triangles + 1, sizeof *keep);
     if (keep == NULL) return DEM_ERROR_MEMORY;
@@ -97,8 +98,8 @@ dem_status shape_trim(dem_lattice *l, const shape *s)
         for (int k = 0; k < 6; k++) centre[k % 2] += l->x[2 * l->triangles[3 * t + k / 2] + k % 2] / 3.0;
         keep[t] = shape_distance(s, centre) < -shape_slack(s);
     }
-    dem_status status = move_small_pieces(keep, l, true);
-    if (status == DEM_OK) status = move_small_pieces(keep, l, false);
+    dem_status status = move_small_pieces(keep, l, true, is_part);
+    if (status == DEM_OK) status = move_small_pieces(keep, l, false, is_part);
     if (status == DEM_OK) status = dem_lattice_trim(l, keep);
     free(keep);
     return status;

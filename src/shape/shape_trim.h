@@ -9,8 +9,9 @@
 #include "shape/shape.h"
 
 /* Keeps the triangles with their centres in the material, but no pieces of a few triangles.
- * \param lattice  shape_mesh() of the shape
+ * \param lattice  shape_mesh() of the shape, or rows of it
+ * \param is_part  these rows: the largest piece is elsewhere, and larger than any that is taken out
  * \return DEM_OK, DEM_ERROR_MEMORY, or DEM_ERROR_MODEL if nothing is left */
-dem_status shape_trim(dem_lattice *lattice, const shape *s);
+dem_status shape_trim(dem_lattice *lattice, const shape *s, bool is_part);
 
 #endif

@@ -16,6 +16,7 @@
 #include "shape/stars.h"
 
 enum { layers = 3, sweeps = 8, last_sweeps = 2 };
+enum { ear_passes = 4, sound_passes = 5 }; /* of a part: SMOOTHING_ROWS has to do with all of these numbers */
 
 static const double reach = 1.0, corner_reach = 1.5; /* of the spacing: farther no node is moved */
 /* Cotangents of the least angle of a triangle. */
@@ -40,7 +41,8 @@ typedef struct gain_at {
 
 typedef struct draft {
     const shape *shape;
-    dem_lattice *lattice; /* its nodes are where the grid has them */
+    const smoothing_part *part; /* NULL: the lattice is the whole */
+    dem_lattice *lattice;       /* its nodes are where the grid has them */
     stars stars;
     double *x;               /* [n_nodes][2] m, where nodes are moved to */
     double *sum;             /* [n_nodes][3] of the places of neighbours, m, and their number */
@@ -48,6 +50,7 @@ typedef struct draft {
     rim_node *at;            /* [n_nodes] for those of the rim */
     dem_index n_rim, *rim;   /* the nodes at the rim */
     dem_index n_cut;         /* corners without a node */
+    dem_index n_open;        /* triangles as `smoothing` has them */
     dem_index n_near, *near; /* triangles with a node that may move */
     dem_index *choice;       /* [n_triangles] of a poor one the side that is to go; -1: none */
     gain_at *best;           /* [n_triangles] of its sides that are to go */
@@ -69,10 +72,10 @@ static void draft_free(draft *d)
     *d = (draft){0};
 }
 
-static bool draft_create(draft *d, dem_lattice *lattice, const shape *s)
+static bool draft_create(draft *d, dem_lattice *lattice, const shape *s, const smoothing_part *part)
 {
     const size_t n = (size_t)lattice->n_nodes, m = (size_t)lattice->n_triangles;
-    *d = (draft){.shape = s, .lattice = lattice};
+    *d = (draft){.shape = s, .part = part, .lattice = lattice};
     d->x = calloc(n + 1, 2 * sizeof *d->x);
     d->sum = calloc(n + 1, 3 * sizeof *d->sum);
     d->depth = calloc(n + 1, sizeof *d->depth);
@@ -89,6 +92,22 @@ static bool draft_create(draft *d, dem_lattice *lattice, const shape *s)
 static bool is_rim(const draft *d, dem_index i)
 {
     return d->depth[i] == 0;
+}
+
+static bool is_in_part(const smoothing_part *part, double y)
+{
+    return part == NULL || (y >= part->from && y < part->to);
+}
+
+static bool is_own(const draft *d, dem_index i)
+{
+    return is_in_part(d->part, d->lattice->x[2 * i + 1]);
+}
+
+static bool has_own(const draft *d, dem_index t)
+{
+    const dem_index *corner = d->lattice->triangles + 3 * t;
+    return is_own(d, corner[0]) || is_own(d, corner[1]) || is_own(d, corner[2]);
 }
 
 static double distance(const double *a, const double *b)
@@ -184,7 +203,7 @@ static void place_corner(const joint *j, const outline_corner *corner)
         least = away;
         nearest = i;
     }
-    d->n_cut += nearest < 0;
+    d->n_cut += nearest < 0 && is_in_part(d->part, corner->x[1]);
     if (nearest < 0 || d->at[nearest].turn <= corner->cosine) return;
     memcpy(d->x + 2 * nearest, corner->x, sizeof corner->x);
     d->at[nearest].turn = corner->cosine;
@@ -220,8 +239,8 @@ static bool is_flat_ear(const draft *d, dem_index t)
     return n == 2 && cotangent_of(d, t) > flat;
 }
 
-/* \param[out] n  of ears taken away */
-static dem_status drop_flat_ears(draft *d, dem_index *n)
+/* \param[out] n  of ears that were taken away, or are left by the last pass over a part */
+static dem_status drop_flat_ears(draft *d, bool is_last, dem_index *n)
 {
     const dem_index n_triangles = d->lattice->n_triangles;
     bool *keep = calloc((size_t)n_triangles + 1, sizeof *keep);
@@ -230,23 +249,27 @@ static dem_status drop_flat_ears(draft *d, dem_index *n)
     for (dem_index t = 0; t < n_triangles; t++) {
         keep[t] = !is_flat_ear(d, t);
         *n += !keep[t];
+        d->n_open += is_last && !keep[t] && has_own(d, t);
     }
-    const dem_status status = *n > 0 ? dem_lattice_trim(d->lattice, keep) : DEM_OK;
+    const dem_status status = *n > 0 && !is_last ? dem_lattice_trim(d->lattice, keep) : DEM_OK;
     free(keep);
     return status;
 }
 
 /* The rim in its place, and no flat ears at it any more. */
-static dem_status settle_rim(draft *d, dem_lattice *lattice, const shape *s)
+static dem_status settle_rim(draft *d, dem_lattice *lattice, const shape *s, const smoothing_part *part)
 {
     dem_status status = DEM_OK;
-    for (dem_index n_ears = 1; status == DEM_OK && n_ears > 0;) {
+    bool is_last = false;
+    dem_index n_ears = 1;
+    for (int pass = 1; status == DEM_OK && n_ears > 0 && !is_last; pass++) {
         draft_free(d);
-        if (!draft_create(d, lattice, s)) return DEM_ERROR_MEMORY;
+        if (!draft_create(d, lattice, s, part)) return DEM_ERROR_MEMORY;
         find_rim(d);
         place_rim(d);
         place_corners(d);
-        status = drop_flat_ears(d, &n_ears);
+        is_last = part != NULL && pass == ear_passes;
+        status = drop_flat_ears(d, is_last, &n_ears);
     }
     return status;
 }
@@ -403,37 +426,54 @@ static void flip(draft *d)
 
 /* ---- soundness ---- */
 
-/* Marks the corners of unsound triangles.  \return whether there are any */
-static bool mark_unsound(const draft *d, bool *marked)
+/* Marks the corners of unsound triangles.
+ * \param[out] n_own  of these in the part
+ * \return whether there are any */
+static bool mark_unsound(const draft *d, bool *marked, dem_index *n_own)
 {
     bool any = false;
+    *n_own = 0;
     memset(marked, 0, (size_t)d->lattice->n_nodes * sizeof *marked);
     for (dem_index k = 0; k < d->n_near; k++) {
         const dem_index *corner = d->lattice->triangles + 3 * d->near[k];
         if (cotangent_of(d, d->near[k]) <= unsound) continue;
         any = true;
+        *n_own += has_own(d, d->near[k]);
         for (int c = 0; c < 3; c++) marked[corner[c]] = true;
     }
     return any;
+}
+
+static void move_marked_back(draft *d)
+{
+    for (dem_index i = 0; i < d->lattice->n_nodes; i++) {
+        const double *home = d->lattice->x + 2 * i;
+        double *x = d->x + 2 * i;
+        for (int c = 0; c < 2 && d->marked[i]; c++) x[c] = home[c] + 0.5 * (x[c] - home[c]);
+    }
 }
 
 /* Corners of unsound triangles go half way back to the grid, all of them at once, until there are none: the order of
  * triangles does not matter. It ends, since there all triangles are sound. */
 static void move_unsound_back(draft *d)
 {
-    while (mark_unsound(d, d->marked))
-        for (dem_index i = 0; i < d->lattice->n_nodes; i++) {
-            const double *home = d->lattice->x + 2 * i;
-            double *x = d->x + 2 * i;
-            for (int c = 0; c < 2 && d->marked[i]; c++) x[c] = home[c] + 0.5 * (x[c] - home[c]);
+    dem_index n_own;
+    for (int pass = 1; mark_unsound(d, d->marked, &n_own); pass++) {
+        if (d->part != NULL && pass == sound_passes) {
+            d->n_open += n_own;
+            return;
         }
+        move_marked_back(d);
+    }
 }
 
 static void measure(smoothing *out, const draft *d)
 {
-    *out = (smoothing){.n_rim = d->n_rim, .n_cut = d->n_cut};
+    *out = (smoothing){.n_cut = d->n_cut, .n_open = d->n_open};
     for (dem_index k = 0; k < d->n_rim; k++) {
         const dem_index i = d->rim[k];
+        if (!is_own(d, i)) continue;
+        out->n_rim++;
         const double *x = d->x + 2 * i,
                      off = fabs(outline_distance(shape_edge_at(d->shape, d->at[i].edge), x[0], x[1]));
         if (off <= shape_slack(d->shape)) continue;
@@ -442,11 +482,11 @@ static void measure(smoothing *out, const draft *d)
     }
 }
 
-dem_status smoothing_apply(smoothing *out, dem_lattice *lattice, const struct shape *s)
+dem_status smoothing_apply(smoothing *out, dem_lattice *lattice, const struct shape *s, const smoothing_part *part)
 {
     draft d = {0};
-    dem_status status = shape_trim(lattice, s);
-    if (status == DEM_OK) status = settle_rim(&d, lattice, s);
+    dem_status status = shape_trim(lattice, s, part != NULL);
+    if (status == DEM_OK) status = settle_rim(&d, lattice, s, part);
     if (status == DEM_OK) {
         find_layers(&d);
         for (int k = 0; k < sweeps; k++) relax(&d);

@@ -13,6 +13,7 @@
 
 #include <gsl/gsl_rng.h>
 
+#include "domain/domain.h"
 #include "harness/cleanup.h"
 #include "harness/cleanup_gsl.h"
 #include "lattice/lattice_arrays.h"
@@ -359,6 +360,83 @@ TEST(slabs_are_the_rows_of_the_whole)
 {
     for (long k = 0; k < n_cases; k++) check((unsigned long)(first_seed + k));
     assert_true(n_shapes > n_cases / 5);
+}
+
+/* ---- slabs of smooth edges ---- */
+
+enum { MOST_PORES = 40 };
+
+static long n_smooth, n_flips; /* slabs compared; of them those with triangles that do not follow each other */
+
+/* Spacing 1, so many rows that slabs do not see all of them. */
+static void draw_tall(dem_shape *s, dem_outline *o, double *points, double *pores, gsl_rng *random)
+{
+    const double width = from(random, 8.0, 30.0), height = from(random, 150.0, 400.0);
+    *o = draw_polygon(random, points, width);
+    for (int k = 0; k < POLYGON; k++) points[2 * k + 1] *= height / width;
+    if (toss(random)) *o = (dem_outline)SIZED(dem_outline, .size = {width, height}, .angle = from(random, -0.1, 0.1));
+    if (gsl_rng_uniform_int(random, 8) == 0)
+        *o = (dem_outline)SIZED(dem_outline, .kind = toss(random) ? DEM_OUTLINE_DISC : DEM_OUTLINE_RING,
+                                .radius = from(random, 80.0, 100.0), .inner_radius = from(random, 10.0, 70.0));
+    *s = (dem_shape)SIZED(dem_shape, .spacing = 1.0, .edge = DEM_EDGE_SMOOTH, .outline = o, .pores = pores);
+    s->n_pores = (dem_index)gsl_rng_uniform_int(random, MOST_PORES + 1);
+    for (dem_index k = 0; k < s->n_pores; k++) {
+        pores[3 * k] = from(random, -0.5, 0.5) * width;
+        pores[3 * k + 1] = from(random, -0.5, 0.5) * height;
+        pores[3 * k + 2] = from(random, 0.5, 5.0);
+    }
+}
+
+/* Ranks number the triangles whose lowest nodes are their own behind those of the slabs before: which is their order in
+ * the whole.  \param[in,out] next  the first one that no slab before has */
+static void assert_owned_in_order(const dem_lattice *whole, const dem_slab *s, dem_index *next)
+{
+    for (dem_index t = 0; t < whole->n_triangles; t++) {
+        const dem_index *corner = whole->triangles + 3 * t;
+        const dem_index lowest = domain_lowest(corner, 3);
+        if (!is_own(s, lowest)) continue;
+        assert_int_equal(t, *next);
+        ++*next;
+    }
+}
+
+static void compare_smooth(const dem_lattice *whole, const dem_shape *s, dem_index n_parts, gsl_rng *random)
+{
+    const double jitter = toss(random) ? from(random, 0.0, 0.2) : 0.0;
+    CLEANUP(dem_lattice_free) dem_lattice jittered = dem_lattice_empty();
+    dem_index next = 0, next_jittered = 0, next_triangle = 0;
+    assert_ok(dem_shape_lattice(&jittered, s, NULL));
+    const bool good = dem_lattice_jitter(&jittered, jitter, 3) == DEM_OK;
+    for (dem_index part = 0; part < n_parts; part++) {
+        CLEANUP(dem_slab_free) dem_slab slab = dem_slab_empty();
+        assert_ok(dem_slab_shape(&slab, s, part, n_parts));
+        assert_same_nodes(whole, &slab, &next);
+        assert_same_rim(whole, &slab);
+        assert_same_triangles(whole, &slab);
+        assert_owned_in_order(whole, &slab, &next_triangle);
+        n_smooth++;
+        n_flips += slab.first_triangle < 0;
+        if (good && dem_slab_jitter(&slab, jitter, 3) == DEM_OK)
+            assert_same_nodes(&jittered, &slab, &next_jittered);
+        else
+            next_jittered += slab.n_own;
+    }
+    assert_int_equal(next, whole->n_nodes);
+}
+
+TEST(slabs_of_smooth_edges_are_rows_of_the_whole)
+{
+    CLEANUP(free_rng) gsl_rng *random = gsl_rng_alloc(gsl_rng_taus);
+    double points[2 * POLYGON], pores[3 * MOST_PORES];
+    for (long k = 0; k < n_cases / 100; k++) {
+        CLEANUP(dem_lattice_free) dem_lattice whole = dem_lattice_empty();
+        dem_shape s;
+        dem_outline o;
+        gsl_rng_set(random, (unsigned long)(first_seed + k));
+        draw_tall(&s, &o, points, pores, random);
+        if (dem_shape_lattice(&whole, &s, NULL) == DEM_OK) compare_smooth(&whole, &s, 2 + k % 6, random);
+    }
+    assert_true(n_smooth > n_cases / 50 && (n_flips > 0 || n_cases < 1000));
 }
 
 /* ---- slabs of files ---- */

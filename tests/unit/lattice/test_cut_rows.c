@@ -13,9 +13,10 @@ typedef struct band {
     int calls; /* and so often it has been asked */
 } band;
 
-static dem_status mark(void *context, dem_lattice *rows, bool *keep)
+static dem_status mark(void *context, const cut_range *range, dem_lattice *rows, bool *keep)
 {
     band *b = context;
+    (void)range;
     b->calls++;
     for (dem_index k = 0; k < 3 * rows->n_triangles; k++) {
         const double y = rows->x[2 * rows->triangles[k] + 1];
@@ -27,7 +28,7 @@ static dem_status mark(void *context, dem_lattice *rows, bool *keep)
 /* Square cells of 1 m: 11 nodes in each of rows 0 to 20. */
 static cut_rows make_rows(band *b)
 {
-    cut_rows c = {.mark = mark, .context = b};
+    cut_rows c = {.mark = mark, .context = b, .height = 1};
     assert_int_equal(grid_of_squares(&c.whole, 10.0, 20.0, 1.0), DEM_OK);
     return c;
 }

@@ -51,10 +51,11 @@ TEST(slabs_of_a_large_shape_follow_each_other_as_in_the_whole)
 static void check_ranges(const dem_lattice *whole, const dem_shape *shape, dem_index step)
 {
     CLEANUP(free_memory) dem_index *counts = NULL;
+    dem_private_rows rows = {0};
     dem_index next = 0;
     for (dem_index begin = 0; begin < whole->n_nodes; begin += step) {
         CLEANUP(dem_slab_free) dem_slab s = dem_slab_empty();
-        assert_int_equal(dem_private_slab_between(&s, shape, &counts, begin, begin + step), DEM_OK);
+        assert_int_equal(dem_private_slab_between(&s, shape, &rows, &counts, begin, begin + step), DEM_OK);
         assert_int_equal(s.n_nodes, whole->n_nodes);
         assert_int_equal(s.n_triangles, whole->n_triangles);
         if (s.n_own == 0) assert_int_equal(s.lattice.n_nodes, 0);
@@ -75,12 +76,50 @@ TEST(slabs_between_nodes_follow_each_other_whatever_the_ranges)
     CLEANUP(dem_lattice_free) dem_lattice whole = dem_lattice_empty();
     CLEANUP(dem_slab_free) dem_slab none = dem_slab_empty();
     CLEANUP(free_memory) dem_index *counts = NULL;
+    dem_private_rows rows = {0};
     assert_int_equal(dem_shape_lattice(&whole, &shape, NULL), DEM_OK);
     for (dem_index step = 5; step <= whole.n_nodes + 9; step += step / 2) check_ranges(&whole, &shape, step);
-    assert_int_equal(dem_private_slab_between(&none, &shape, &counts, 0, 0), DEM_OK);
+    assert_int_equal(dem_private_slab_between(&none, &shape, &rows, &counts, 0, 0), DEM_OK);
     assert_int_equal(none.n_own, 0);
     assert_int_equal(none.n_nodes, whole.n_nodes);
 }
+
+/* ---- what is found of the whole ---- */
+
+/* Takes what is right of the middle of the disc. */
+static dem_status cut_right(void *program, const dem_lattice *rows, bool *keep, dem_index begin, dem_index end)
+{
+    dem_index *n = program;
+    for (dem_index t = 0; t < rows->n_triangles; t++) {
+        const bool is_right = rows->x[2 * rows->triangles[3 * t]] > 1.0;
+        *n += is_right && keep[t] && t >= begin && t < end;
+        keep[t] = keep[t] && !is_right;
+    }
+    return DEM_OK;
+}
+
+TEST(rows_that_are_counted_tell_of_the_whole)
+{
+    dem_shape shape = make_shape();
+    shape.edge = DEM_EDGE_SMOOTH;
+    dem_shape_report report = {.struct_size = sizeof report};
+    dem_index n_right = 0;
+    dem_private_rows rows = {.cut = cut_right, .program = &n_right};
+    CLEANUP(free_memory) dem_index *counts = NULL;
+    CLEANUP(dem_lattice_free) dem_lattice whole = dem_lattice_empty();
+    CLEANUP(dem_slab_free) dem_slab none = dem_slab_empty();
+    assert_int_equal(dem_shape_lattice(&whole, &shape, &report), DEM_OK);
+    assert_int_equal(dem_private_slab_between(&none, &shape, &rows, &counts, 0, 0), DEM_OK);
+    assert_int_equal(rows.report.n_rim, report.n_rim);
+    assert_int_equal(rows.report.n_off, report.n_off);
+    assert_int_equal(rows.report.n_cut, report.n_cut);
+    assert_close(rows.report.farthest, report.farthest, 0.0);
+    assert_int_equal(rows.n_taken, n_right);
+    assert_int_equal(none.n_triangles, whole.n_triangles - n_right);
+    assert_true(report.n_rim > 1000 && n_right > whole.n_triangles / 3);
+}
+
+/* ---- refusals ---- */
 
 static void expect_refusal(const dem_shape *shape, dem_index n_parts, dem_status status, const char *message)
 {
@@ -94,9 +133,6 @@ static void expect_refusal(const dem_shape *shape, dem_index n_parts, dem_status
 TEST(slabs_of_shapes_refuse_what_needs_the_whole)
 {
     dem_shape s = make_shape();
-    s.edge = DEM_EDGE_SMOOTH;
-    expect_refusal(&s, 1, DEM_ERROR_ARGUMENT, "smooth edges * whole");
-    s = make_shape();
     s.numbered = true;
     expect_refusal(&s, 1, DEM_ERROR_ARGUMENT, "numbered in the whole");
 }

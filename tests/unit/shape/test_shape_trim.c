@@ -40,7 +40,7 @@ TEST(triangles_with_their_centres_in_the_material_are_kept)
     assert_true(shape_add_void(&s, (outline[]){{.kind = DEM_OUTLINE_DISC, .centre = {2.0, 1.0}, .radius = 3.0}}));
     CLEANUP(dem_lattice_free) dem_lattice l = make_mesh(&s);
     const dem_index n = count_inside(&l, &s);
-    assert_int_equal(shape_trim(&l, &s), DEM_OK);
+    assert_int_equal(shape_trim(&l, &s, false), DEM_OK);
     assert_int_equal(l.n_triangles, n);
     assert_int_equal(count_inside(&l, &s), n);
 }
@@ -53,7 +53,7 @@ TEST(small_pieces_of_the_material_are_taken_out)
         .outline = {.kind = DEM_OUTLINE_POLYGON, .n_points = 3, .points = corners}, .spacing = 1.0, .smooth = true};
     CLEANUP(dem_lattice_free) dem_lattice l = make_mesh(&s);
     const dem_index n = count_inside(&l, &s);
-    assert_int_equal(shape_trim(&l, &s), DEM_OK);
+    assert_int_equal(shape_trim(&l, &s, false), DEM_OK);
     assert_true(l.n_triangles < n && l.n_triangles > n - 4);
     dem_index n_pieces;
     CLEANUP(free_memory) dem_index *piece = calloc((size_t)l.n_triangles, sizeof *piece);
@@ -74,7 +74,7 @@ TEST(small_pieces_of_a_void_are_filled)
     assert_true(shape_add_void(&s, &hole));
     CLEANUP(dem_lattice_free) dem_lattice l = make_mesh(&s);
     const dem_index n = count_inside(&l, &s);
-    assert_int_equal(shape_trim(&l, &s), DEM_OK);
+    assert_int_equal(shape_trim(&l, &s, false), DEM_OK);
     assert_true(l.n_triangles > n);
     CLEANUP(free_memory) dem_index *n_edges = calloc((size_t)l.n_nodes, sizeof *n_edges);
     assert_non_null(n_edges);
@@ -86,5 +86,5 @@ TEST(a_shape_that_keeps_no_triangle_is_an_error)
 {
     const shape s = {.outline = {.kind = DEM_OUTLINE_DISC, .radius = 0.1}, .spacing = 1.0, .smooth = true};
     CLEANUP(dem_lattice_free) dem_lattice l = make_mesh(&s);
-    assert_int_equal(shape_trim(&l, &s), DEM_ERROR_MODEL);
+    assert_int_equal(shape_trim(&l, &s, false), DEM_ERROR_MODEL);
 }

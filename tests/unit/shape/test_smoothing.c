@@ -80,7 +80,7 @@ static dem_lattice make(const shape *s, smoothing *out)
 {
     dem_lattice l = dem_lattice_empty();
     assert_int_equal(shape_mesh(&l, s), DEM_OK);
-    assert_int_equal(smoothing_apply(out, &l, s), DEM_OK);
+    assert_int_equal(smoothing_apply(out, &l, s, NULL), DEM_OK);
     return l;
 }
 
@@ -322,4 +322,94 @@ TEST(the_same_shape_has_the_same_lattice)
     assert_int_equal(l.n_triangles, m.n_triangles);
     assert_memory_equal(l.x, m.x, 2 * (size_t)l.n_nodes * sizeof *l.x);
     assert_memory_equal(l.triangles, m.triangles, 3 * (size_t)l.n_triangles * sizeof *l.triangles);
+}
+
+/* ---- parts, and any order of triangles ---- */
+
+/* Far inside of its outline, so that its rim stays where it is, and so flat that no triangle is sound. */
+static dem_lattice make_flat(double height)
+{
+    dem_lattice l = dem_lattice_empty();
+    assert_int_equal(dem_lattice_rectangle(&l, 20.0, height, 1.0), DEM_OK);
+    for (dem_index i = 0; i < l.n_nodes; i++) l.x[2 * i] *= 0.3;
+    return l;
+}
+
+static smoothing smooth_flat(double height, smoothing_part part)
+{
+    const shape s = {.spacing = 1.0, .smooth = true, .outline = {.size = {1e3, 1e3}}};
+    smoothing out;
+    CLEANUP(dem_lattice_free) dem_lattice l = make_flat(height);
+    assert_int_equal(smoothing_apply(&out, &l, &s, &part), DEM_OK);
+    return out;
+}
+
+/* The whole would take further passes. In a row of 39 triangles each pass finds two ears: three passes take them away,
+ * the last one leaves them, and the 33 triangles that there are then stay unsound. */
+TEST(triangles_of_a_part_that_takes_too_many_passes_are_counted)
+{
+    const double all = (double)INFINITY;
+    assert_int_equal(smooth_flat(1.0, (smoothing_part){-all, all}).n_open, 2 + 33);
+    assert_int_equal(smooth_flat(1.0, (smoothing_part){5.0, all}).n_open, 0);
+    assert_true(smooth_flat(9.0, (smoothing_part){-all, all}).n_open > 100);
+    assert_int_equal(smooth_flat(9.0, (smoothing_part){20.0, all}).n_open, 0);
+}
+
+TEST(numbers_of_parts_add_up_to_those_of_the_whole)
+{
+    unsigned state = 8;
+    for (int k = 0; k < 20; k++) {
+        CLEANUP(shape_free) shape s = draw_shape(&state, (sort)(k % N_SORTS), 12.0);
+        smoothing whole, below, above;
+        const smoothing_part parts[] = {{-(double)INFINITY, 3.3}, {3.3, (double)INFINITY}};
+        CLEANUP(dem_lattice_free) dem_lattice l = make(&s, &whole), m = dem_lattice_empty(), n = dem_lattice_empty();
+        assert_int_equal(shape_mesh(&m, &s), DEM_OK);
+        assert_int_equal(shape_mesh(&n, &s), DEM_OK);
+        assert_int_equal(smoothing_apply(&below, &m, &s, &parts[0]), DEM_OK);
+        assert_int_equal(smoothing_apply(&above, &n, &s, &parts[1]), DEM_OK);
+        assert_memory_equal(m.x, l.x, 2 * (size_t)l.n_nodes * sizeof *l.x);
+        assert_true(below.n_rim > 0 && above.n_rim > 0);
+        assert_int_equal(below.n_rim + above.n_rim, whole.n_rim);
+        assert_int_equal(below.n_off + above.n_off, whole.n_off);
+        assert_int_equal(below.n_cut + above.n_cut, whole.n_cut);
+        assert_close(fmax(below.farthest, above.farthest), whole.farthest, 0.0);
+    }
+}
+
+/* The spaces between these pores are as wide as triangles, so that many are poor, or unsound. */
+static shape draw_sponge(unsigned *state)
+{
+    shape s = {.spacing = 1.0, .smooth = true, .outline = {.kind = DEM_OUTLINE_DISC, .radius = 30.0}};
+    for (int k = 0; k < 60; k++) {
+        const outline hole = {.kind = DEM_OUTLINE_DISC,
+                              .centre = {between(state, -25.0, 25.0), between(state, -25.0, 25.0)},
+                              .radius = between(state, 0.6, 4.0)};
+        assert_true(shape_add_void(&s, (outline[]){hole}));
+    }
+    return s;
+}
+
+static void turn_order(dem_lattice *l)
+{
+    for (dem_index t = 0, u = l->n_triangles - 1; t < u; t++, u--)
+        for (int c = 0; c < 3; c++) {
+            const dem_index corner = l->triangles[3 * t + c];
+            l->triangles[3 * t + c] = l->triangles[3 * u + c];
+            l->triangles[3 * u + c] = corner;
+        }
+}
+
+TEST(places_do_not_depend_on_the_order_of_triangles)
+{
+    unsigned state = 11;
+    for (int k = 0; k < 150; k++) {
+        CLEANUP(shape_free) shape s = draw_sponge(&state);
+        smoothing out;
+        CLEANUP(dem_lattice_free) dem_lattice l = make(&s, &out), m = dem_lattice_empty();
+        assert_int_equal(shape_mesh(&m, &s), DEM_OK);
+        turn_order(&m);
+        assert_int_equal(smoothing_apply(&out, &m, &s, NULL), DEM_OK);
+        assert_int_equal(l.n_nodes, m.n_nodes);
+        assert_memory_equal(l.x, m.x, 2 * (size_t)l.n_nodes * sizeof *l.x);
+    }
 }

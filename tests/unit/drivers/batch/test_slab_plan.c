@@ -23,8 +23,8 @@ TEST(large_bodies_that_suit_are_made_by_several_ranks)
     CLEANUP(deck_free)
     deck d = deck_text_good(RUN "&body shape = 'disc', radius = 0.05, spacing = 1e-2, outline = 'lattice' /\n");
     CLEANUP(deck_free)
-    deck smooth = deck_text_good(RUN "&body shape = 'disc', radius = 0.05, spacing = 1e-2, "
-                                     "outline = 'smooth' /\n");
+    deck parts = deck_text_good(RUN "&body shape = 'disc', radius = 0.05, spacing = 1e-2 /\n"
+                                    "&output fields = 'fragment' /\n");
     CLEANUP(deck_free)
     deck many = deck_text_good(RUN "&body shape = 'disc', radius = 0.05, spacing = 1e-2, outline = 'lattice', "
                                    "copies = 40, 5, pitch = 0.2, 0.2 /\n");
@@ -34,7 +34,7 @@ TEST(large_bodies_that_suit_are_made_by_several_ranks)
     assert_int_equal(slabs_for(&d, 4, 999.0), 0);
     assert_int_equal(slabs_for(&d, 1, 1e6), 0);
     assert_int_equal(slabs_for(&d, 0, 1e6), 0);
-    assert_int_equal(slabs_for(&smooth, 4, 1e6), 0);
+    assert_int_equal(slabs_for(&parts, 4, 1e6), 0);
 }
 
 /* 120 bytes for each node of the whole besides a share, but no more than a process alone. */

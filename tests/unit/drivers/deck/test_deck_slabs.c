@@ -85,6 +85,22 @@ static const char *const suited[] = {
                "components = 'x' /\n"
                "&boundary body = 2, where = 'list', nodes = 3, 200, kind = 'force', force = 1, 2 /\n"
                "&boundary body = 2, where = 'box', box = -0.01, -0.05, 0.01, -0.03 /\n",
+    /* With smooth edges and cracks. */
+    RUN GROUND
+    "&body shape = 'ring', radius = 0.06, inner_radius = 0.03, spacing = 3e-3, clearance = 1e-3, angle = 30, "
+    "position = 0.01, 0.02, jitter = 0.05, seed = 8, spin = 7 /\n"
+    "&crack points = 0.025, 0.01, 0.05, 0.012, 0.052, 0.02 /\n"
+    "&pores number = 4, radius = 3e-3, 5e-3, wall = 5e-3, seed = 3 /\n"
+    "&probe name = 'top', place = 0, 1 /\n&probe name = 'side', kind = 'spring', place = 1, 0.03 /\n",
+    RUN GROUND "&material name = 'core', youngs_modulus = 3e7, density = 3000 /\n"
+               "&body shape = 'polygon', points = 0, 0, 0.1, 0, 0.05, 0.03, 0.1, 0.1, 0, 0.1, spacing = 3e-3, "
+               "position = 0, 0.1 /\n"
+               "&inclusion shape = 'disc', centre = 0.02, 0.05, radius = 0.01, material = 'core' /\n"
+               "&crack points = 0.03, 0.11, 0.031, 0.08 /\n&crack points = 0.005, 0.02, 0.03, 0.02 /\n"
+               "&body shape = 'rectangle', size = 0.1, 0.1, spacing = 5e-3, lattice = 'square', position = -0.2, 0 /\n"
+               "&crack body = 2, points = -0.02, 0.02, 0.02, 0.04 /\n"
+               "&boundary body = 2, where = 'side', side = 'bottom' /\n"
+               "&boundary where = 'side', side = 'left', kind = 'traction', traction = 100, 0, ramp = 1 /\n",
     /* Lattice files: alone, with all that may be asked for; beside other bodies, which have other arrays. */
     RUN GROUND "&body shape = 'file', file = 'smooth.vtkhdf', clearance = 2e-4, velocity = 0.3, -10, angle = 20 /\n",
     RUN GROUND
@@ -226,6 +242,11 @@ static void check_body(const body_facts *a, const body_facts *b)
     assert_memory_equal(&a->least_angle, &b->least_angle, sizeof a->least_angle);
     assert_memory_equal(&a->geometry.area, &b->geometry.area, sizeof a->geometry.area);
     assert_int_equal(a->geometry.n_pores, b->geometry.n_pores);
+    assert_int_equal(a->geometry.n_cracked, b->geometry.n_cracked);
+    assert_int_equal(a->geometry.report.n_rim, b->geometry.report.n_rim);
+    assert_int_equal(a->geometry.report.n_off, b->geometry.report.n_off);
+    assert_int_equal(a->geometry.report.n_cut, b->geometry.report.n_cut);
+    assert_memory_equal(&a->geometry.report.farthest, &b->geometry.report.farthest, sizeof(double));
     assert_int_equal(a->n_included, b->n_included);
     assert_int_equal(a->further, b->further);
     assert_int_equal(a->loose.n + b->loose.n + a->hinges.n + b->hinges.n, 0);
@@ -376,9 +397,9 @@ TEST(slabs_have_the_facts_and_the_nodes_of_the_whole)
 TEST(what_asks_for_more_is_built_as_a_whole)
 {
     static const char *const others[] = {
-        RUN "&body shape = 'rectangle', size = 0.05, 0.05, spacing = 5e-3, outline = 'smooth' /\n",
-        RUN "&body shape = 'rectangle', size = 0.05, 0.05, spacing = 5e-3, outline = 'lattice' /\n"
-            "&crack points = 0.01, 0.01, 0.02, 0.04 /\n",
+        RUN "&body shape = 'rectangle', size = 0.05, 0.05, spacing = 5e-3 /\n&output fields = 'fragment' /\n",
+        /* So much jitter would squeeze triangles at the edge. */
+        RUN "&body shape = 'disc', radius = 0.05, spacing = 5e-3, jitter = 0.3 /\n",
         RUN "&body shape = 'disc', radius = 0.02, spacing = 5e-3, outline = 'lattice' /\n"
             "&body shape = 'disc', radius = 0.02, spacing = 5e-3, outline = 'lattice', position = 0.1, 0, "
             "rigid = .true. /\n",
@@ -516,6 +537,8 @@ TEST(what_is_wrong_is_reported_as_of_the_whole)
         RUN
         "&obstacle points = -0.3, -0.02, 0.0008, -0.02, 0.0012, 0.022, 0.0016, -0.02, 0.3, -0.02 /\n"
         "&body shape = 'rectangle', size = 0.06, 0.06, spacing = 5e-3, outline = 'lattice', position = 0, -0.003 /\n",
+        RUN "&body shape = 'disc', radius = 0.05, spacing = 5e-3 /\n&crack points = 0, 0, 0.01, 0 /\n"
+            "&crack points = 0.1, 0, 0.2, 0 /\n",
         RUN "&body shape = 'disc', radius = 0.05, spacing = 5e-3, outline = 'lattice' /\n"
             "&probe name = 'a', number = 99999 /\n&probe name = 'b', kind = 'spring', number = 99999 /\n",
         RUN "&body shape = 'disc', radius = 0.05, spacing = 5e-3, outline = 'lattice' /\n"
