@@ -7,10 +7,10 @@
 
 #include <dem/checkpoint.h>
 
+#include "base/checkpoint_rows.h"
 #include "base/ranks.h"
-#include "base/rows_taker.h"
 
-/** Puts all entries of a checkpoint into another.  \return DEM_ERROR_MEMORY */
+/** Puts all entries of a checkpoint into another; those in a file stay there.  \return DEM_ERROR_MEMORY */
 dem_status checkpoint_entries_copy(dem_checkpoint *into, const dem_checkpoint *from);
 
 /** The same with those of some names.
@@ -34,23 +34,33 @@ void checkpoint_entries_free(dem_checkpoint *checkpoint);
  *  \return DEM_ERROR_MEMORY, then the entry is as it was */
 dem_status checkpoint_entries_make(dem_checkpoint *checkpoint, const char *name, size_t size, void **data);
 
-/** What makes up an entry that others have until somebody asks for it. */
-typedef struct checkpoint_rows {
-    dem_status (*visit)(void *context, rows_taker *take, void *taker); /**< hands all over */
-    void *context;
-    size_t size; /**< bytes of a row */
-    dem_index n;
-} checkpoint_rows;
-
 /** Makes an entry of rows that are elsewhere, in place of one of its name. A file gets them as they are handed over;
  *  who looks at the entry makes a copy of it here.
  *  \return DEM_ERROR_MEMORY */
 dem_status checkpoint_entries_refer(dem_checkpoint *checkpoint, const char *name, const checkpoint_rows *rows);
 
-/** Copies all that is elsewhere, which is about to end.  \return DEM_ERROR_MEMORY */
+/** Copies all that ranks have, which is about to end.  \return DEM_ERROR_MEMORY */
 dem_status checkpoint_entries_bring(dem_checkpoint *checkpoint);
 
-/** Puts all entries of rank 0's checkpoint, of which none is elsewhere, into that of every other rank. Collective.
+/** Whether there is an entry of so many bytes, wherever they are.  \return DEM_ERROR_IO */
+dem_status checkpoint_entries_check(const dem_checkpoint *checkpoint, const char *name, size_t size);
+
+/** Copies some bytes of an entry, from byte `from` on. What is in a file stays there.
+ *  \return DEM_ERROR_IO if it does not have them, DEM_ERROR_MEMORY */
+dem_status checkpoint_entries_read(const dem_checkpoint *checkpoint, const char *name, size_t from, size_t size,
+                                   void *to);
+
+/** Rows of an entry, from a byte of it on, as checkpoint_entries_row_reader() reads them. */
+typedef struct checkpoint_row_source {
+    const dem_checkpoint *from;
+    const char *name;
+    size_t offset, size; /* bytes: where they begin, and of a row */
+} checkpoint_row_source;
+
+/** A rows_reader.  \param source  checkpoint_row_source */
+dem_status checkpoint_entries_row_reader(void *source, dem_index first, dem_index n, void *rows);
+
+/** Puts all entries of rank 0's checkpoint, of which other ranks have none, into that of every other rank. Collective.
  *  \return DEM_ERROR_MEMORY, on all ranks */
 dem_status checkpoint_entries_share(const ranks *r, dem_checkpoint *checkpoint);
 

@@ -3,7 +3,6 @@
  * rows behind their numbers. Back to the ranks each chunk goes as a whole. */
 #include "domain/gather.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -158,14 +157,14 @@ dem_status gather_chunks(const ranks *r, const gather_items *items, size_t size,
 
 /* ---- back ---- */
 
-/* Rank 0 has `chunk` already, and the others get it. */
-static void send_chunk(const collection *c, size_t bytes, void *chunk)
+/* Of the buffer, from rank 0 to all others. */
+static void send_chunk(const collection *c, size_t bytes)
 {
     const ranks *r = c->ranks;
     const int n = r->rank == 0 ? r->size - 1 : 1;
     for (int k = 0; k < n; k++) {
         const int other = r->rank == 0 ? k + 1 : 0;
-        const ranks_message full = {other, bytes, chunk}, empty = {other, 0, NULL};
+        const ranks_message full = {other, bytes, c->buffer}, empty = {other, 0, NULL};
         c->sent[k] = r->rank == 0 ? full : empty;
         c->received[k] = r->rank == 0 ? empty : full;
     }
@@ -173,25 +172,27 @@ static void send_chunk(const collection *c, size_t bytes, void *chunk)
 }
 
 /* \param first, end  of the chunk, by numbers of the whole */
-static void take_rows(collection *c, dem_index first, dem_index end, const unsigned char *chunk, unsigned char *to)
+static void take_rows(collection *c, dem_index first, dem_index end, unsigned char *to)
 {
     const gather_items *items = c->items;
     for (; c->next < items->n && gather_number(items, c->next) < end; c->next++)
-        memcpy(to + (size_t)c->next * c->size, chunk + (size_t)(gather_number(items, c->next) - first) * c->size,
+        memcpy(to + (size_t)c->next * c->size, c->buffer + (size_t)(gather_number(items, c->next) - first) * c->size,
                c->size);
 }
 
-dem_status gather_back(const ranks *r, const gather_items *items, size_t size, const void *whole, void *to)
+/* A chunk that could not be read is sent all the same, as others wait for it. */
+dem_status gather_back(const ranks *r, const gather_items *items, size_t size, rows_reader *read, void *context,
+                       void *to)
 {
     collection c = {.ranks = r, .items = items, .size = size};
-    const dem_status status = reduce_status(r, allocate(&c), 0.0);
-    for (dem_index first = 0, end; status == DEM_OK && first < items->n_whole; first = end) {
-        end = first + ROWS_CHUNK < items->n_whole ? first + ROWS_CHUNK : items->n_whole;
-        /* Messages are not const, whoever sends them. */
-        void *chunk = r->rank == 0 ? (void *)((uintptr_t)whole + (size_t)first * size) : c.buffer;
-        send_chunk(&c, (size_t)(end - first) * size, chunk);
-        take_rows(&c, first, end, chunk, to);
+    const dem_status ready = reduce_status(r, allocate(&c), 0.0);
+    dem_status got = ready;
+    for (dem_index first = 0, n; ready == DEM_OK && first < items->n_whole; first += n) {
+        n = items->n_whole - first < ROWS_CHUNK ? items->n_whole - first : ROWS_CHUNK;
+        if (r->rank == 0 && got == DEM_OK) got = read(context, first, n, c.buffer);
+        send_chunk(&c, (size_t)n * size);
+        take_rows(&c, first, first + n, to);
     }
     release(&c);
-    return status;
+    return ready == DEM_OK ? reduce_status(r, got, 0.0) : ready;
 }

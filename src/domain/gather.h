@@ -66,10 +66,11 @@ dem_status gather_rows(const ranks *r, const gather_items *items, size_t size, c
 dem_status gather_chunks(const ranks *r, const gather_items *items, size_t size, const void *from, rows_taker *take,
                          void *context);
 
-/** The other way round: gives each rank the rows of what it has, owned or not. Collective.
- *  \param whole    [n_whole][size] on rank 0; not looked at elsewhere
- *  \param[out] to  [n][size]
- *  \return DEM_ERROR_MEMORY, on all ranks */
-dem_status gather_back(const ranks *r, const gather_items *items, size_t size, const void *whole, void *to);
+/** The other way round: gives each rank the rows of what it has, owned or not, ROWS_CHUNK at a time. Collective.
+ *  \param read    reads rows of the whole, on rank 0; not called elsewhere. Once it fails it is not called again
+ *  \param[out] to [n][size]
+ *  \return its failure, and DEM_ERROR_MEMORY, on all ranks */
+dem_status gather_back(const ranks *r, const gather_items *items, size_t size, rows_reader *read, void *context,
+                       void *to);
 
 #endif

@@ -19,6 +19,7 @@ typedef dem_status bring(dem_peaks *peaks);
 static const dem_peaks *brought(const dem_peaks *peaks, bool is_there, bring *of_one_kind)
 {
     dem_peaks *p = (dem_peaks *)(uintptr_t)peaks;
+    if (peaks_load(p) != DEM_OK) peaks_give_up(p);
     if (!p->are_away || is_there) return p;
     peaks_give_up(p);
     if (of_one_kind(p) != DEM_OK) peaks_give_up(p);
@@ -53,7 +54,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
     return status;
 }
 
-static const char entry_every[] = "peaks.every", entry_nodes[] = "peaks.nodes", entry_springs[] = "peaks.springs";
+static const char entry_every[] = "peaks.every";
 
 /* Checkpoints of older versions do not say it. */
 static dem_status check_every(const dem_peaks *p, const dem_checkpoint *from)
@@ -69,38 +70,31 @@ static dem_status check_every(const dem_peaks *p, const dem_checkpoint *from)
     return DEM_OK;
 }
 
-/* Puts what a checkpoint contains of the peaks into it, or gets it from there. */
-static dem_status pass(dem_peaks *p, const checkpoint_entries_way *way)
-{
-    TRY(checkpoint_entries_pass(way, entry_nodes, p->nodes, (size_t)p->n_nodes * sizeof *p->nodes));
-    return checkpoint_entries_pass(way, entry_springs, p->springs, (size_t)p->n_springs * sizeof *p->springs);
-}
-
 /* The ranks that have them keep them as they are now. */
 static dem_status refer(dem_peaks *p, dem_checkpoint *checkpoint)
 {
     const checkpoint_rows of_nodes = {leader_peaks_visit_kept_nodes, p, sizeof *p->nodes, p->n_nodes};
     const checkpoint_rows of_springs = {leader_peaks_visit_kept_springs, p, sizeof *p->springs, p->n_springs};
     TRY(leader_peaks_keep(p->away, p));
-    TRY(checkpoint_entries_refer(checkpoint, entry_nodes, &of_nodes));
-    return checkpoint_entries_refer(checkpoint, entry_springs, &of_springs);
+    TRY(checkpoint_entries_refer(checkpoint, peaks_entry_nodes, &of_nodes));
+    return checkpoint_entries_refer(checkpoint, peaks_entry_springs, &of_springs);
 }
 
 /* The observer's checkpoint. */
 static dem_status remember(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
-    const checkpoint_entries_way way = {.into = checkpoint};
     dem_peaks *p = context;
     (void)simulation;
-    TRY(checkpoint_entries_pass(&way, entry_every, &p->every, sizeof p->every));
-    return p->are_away ? refer(p, checkpoint) : pass(p, &way);
+    TRY(dem_checkpoint_put(checkpoint, entry_every, &p->every, sizeof p->every));
+    return p->are_away ? refer(p, checkpoint) : peaks_put(p, checkpoint);
 }
 
 /* ---- public ---- */
 
-dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index every)
+/* Without entries. */
+static dem_status create(dem_peaks **out, const dem_model *model, dem_index every)
 {
-    CHECK(out != NULL && model != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_create: %s is NULL", out ? "model" : "out");
+    CHECK(model != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_create: model is NULL");
     CHECK(every >= 1, DEM_ERROR_ARGUMENT, "peaks are looked for every %lld steps; it must be 1 or more",
           (long long)every);
     dem_model_size size = {.struct_size = sizeof size};
@@ -108,8 +102,12 @@ dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index e
     dem_peaks *p = calloc(1, sizeof *p);
     CHECK_MEMORY(p);
     *p = (dem_peaks){.n_nodes = size.n_nodes, .n_springs = size.n_springs, .every = every, .is_new = true};
-    dem_status status = peaks_make_node_room(p);
-    if (status == DEM_OK) status = peaks_make_spring_room(p);
+    *out = p;
+    return DEM_OK;
+}
+
+static dem_status give(dem_peaks **out, dem_peaks *p, dem_status status)
+{
     if (status == DEM_OK)
         *out = p;
     else
@@ -117,20 +115,26 @@ dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index e
     return status;
 }
 
+dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index every)
+{
+    dem_peaks *p = NULL;
+    CHECK(out != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_create: out is NULL");
+    TRY(create(&p, model, every));
+    dem_status status = peaks_make_node_room(p);
+    if (status == DEM_OK) status = peaks_make_spring_room(p);
+    return give(out, p, status);
+}
+
 dem_status dem_peaks_resume(dem_peaks **out, const dem_model *model, dem_index every, const dem_checkpoint *checkpoint)
 {
-    const checkpoint_entries_way way = {.from = checkpoint};
-    dem_peaks *p;
-    CHECK(checkpoint != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_resume: checkpoint is NULL");
-    TRY(dem_peaks_create(&p, model, every));
-    dem_status status = check_every(p, checkpoint);
-    if (status == DEM_OK) status = pass(p, &way);
+    dem_peaks *p = NULL;
+    CHECK(out != NULL && checkpoint != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_resume: %s is NULL",
+          out != NULL ? "checkpoint" : "out");
+    TRY(create(&p, model, every));
     p->is_new = false;
-    if (status == DEM_OK)
-        *out = p;
-    else
-        dem_peaks_destroy(p);
-    return status;
+    dem_status status = check_every(p, checkpoint);
+    if (status == DEM_OK) status = peaks_go_on(p, checkpoint);
+    return give(out, p, status);
 }
 
 void dem_peaks_destroy(dem_peaks *peaks)

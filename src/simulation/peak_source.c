@@ -4,6 +4,7 @@
 #include "base/peak_source.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,13 +16,17 @@
 dem_status dem_private_peaks_visit_nodes(const dem_peaks *p, rows_taker *take, void *context)
 {
     if (p->are_away && p->nodes == NULL) return leader_peaks_visit_nodes(p->away, p, take, context);
-    return rows_hand_over(p->nodes, sizeof *p->nodes, p->n_nodes, take, context);
+    if (p->from == NULL) return rows_hand_over(p->nodes, sizeof *p->nodes, p->n_nodes, take, context);
+    const rows_source all = {peaks_read_nodes, (void *)(uintptr_t)p, sizeof *p->nodes, p->n_nodes};
+    return rows_pass_on(&all, take, context);
 }
 
 dem_status dem_private_peaks_visit_springs(const dem_peaks *p, rows_taker *take, void *context)
 {
     if (p->are_away && p->springs == NULL) return leader_peaks_visit_springs(p->away, p, take, context);
-    return rows_hand_over(p->springs, sizeof *p->springs, p->n_springs, take, context);
+    if (p->from == NULL) return rows_hand_over(p->springs, sizeof *p->springs, p->n_springs, take, context);
+    const rows_source all = {peaks_read_springs, (void *)(uintptr_t)p, sizeof *p->springs, p->n_springs};
+    return rows_pass_on(&all, take, context);
 }
 
 /* ---- the largest ---- */

@@ -4,12 +4,14 @@
  * peak_observer.c. */
 #include "simulation/peaks.h"
 
+#include "base/checkpoint_entries.h"
 #include "base/status.h"
 #include "model/stress.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* The size of a node's stress is its von Mises stress; the components are kept with it. Most are below the peak by more
  * than squares are rounded, and take no root. */
@@ -48,6 +50,7 @@ static dem_status make_scratch(dem_peaks *p)
 dem_status peaks_look(dem_peaks *p, const dem_simulation *simulation)
 {
     dem_progress now = {.struct_size = sizeof now};
+    TRY(peaks_load(p));
     TRY(make_scratch(p));
     TRY(dem_simulation_progress(simulation, &now));
     TRY(look_at_nodes(p, simulation, now.t));
@@ -74,6 +77,72 @@ void peaks_give_up(dem_peaks *p)
 {
     free(p->nodes);
     free(p->springs);
+    dem_checkpoint_destroy(p->from);
     p->nodes = NULL;
     p->springs = NULL;
+    p->from = NULL;
+}
+
+/* ---- in checkpoints ---- */
+
+const char peaks_entry_nodes[] = "peaks.nodes", peaks_entry_springs[] = "peaks.springs";
+
+static size_t bytes_of_nodes(const dem_peaks *p)
+{
+    return (size_t)p->n_nodes * sizeof *p->nodes;
+}
+
+static size_t bytes_of_springs(const dem_peaks *p)
+{
+    return (size_t)p->n_springs * sizeof *p->springs;
+}
+
+static bool is_entry(const char *name)
+{
+    return strcmp(name, peaks_entry_nodes) == 0 || strcmp(name, peaks_entry_springs) == 0;
+}
+
+dem_status peaks_go_on(dem_peaks *p, const dem_checkpoint *from)
+{
+    TRY(checkpoint_entries_check(from, peaks_entry_nodes, bytes_of_nodes(p)));
+    TRY(checkpoint_entries_check(from, peaks_entry_springs, bytes_of_springs(p)));
+    TRY(dem_checkpoint_create(&p->from));
+    return checkpoint_entries_choose(p->from, from, is_entry);
+}
+
+dem_status peaks_put(const dem_peaks *p, dem_checkpoint *into)
+{
+    if (p->from != NULL) return checkpoint_entries_copy(into, p->from);
+    TRY(dem_checkpoint_put(into, peaks_entry_nodes, p->nodes, bytes_of_nodes(p)));
+    return dem_checkpoint_put(into, peaks_entry_springs, p->springs, bytes_of_springs(p));
+}
+
+dem_status peaks_load(dem_peaks *p)
+{
+    if (p->from == NULL) return DEM_OK;
+    TRY(peaks_make_node_room(p));
+    TRY(peaks_make_spring_room(p));
+    TRY(dem_checkpoint_get(p->from, peaks_entry_nodes, p->nodes, bytes_of_nodes(p)));
+    TRY(dem_checkpoint_get(p->from, peaks_entry_springs, p->springs, bytes_of_springs(p)));
+    dem_checkpoint_destroy(p->from);
+    p->from = NULL;
+    return DEM_OK;
+}
+
+dem_status peaks_read_nodes(void *peaks, dem_index first, dem_index n, void *rows)
+{
+    const dem_peaks *p = peaks;
+    checkpoint_row_source there = {p->from, peaks_entry_nodes, 0, sizeof *p->nodes};
+    rows_here here = {sizeof *p->nodes, p->nodes};
+    return p->from != NULL ? checkpoint_entries_row_reader(&there, first, n, rows)
+                           : rows_reader_copy(&here, first, n, rows);
+}
+
+dem_status peaks_read_springs(void *peaks, dem_index first, dem_index n, void *rows)
+{
+    const dem_peaks *p = peaks;
+    checkpoint_row_source there = {p->from, peaks_entry_springs, 0, sizeof *p->springs};
+    rows_here here = {sizeof *p->springs, p->springs};
+    return p->from != NULL ? checkpoint_entries_row_reader(&there, first, n, rows)
+                           : rows_reader_copy(&here, first, n, rows);
 }

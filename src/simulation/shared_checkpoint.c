@@ -60,19 +60,26 @@ static state_layout without_nodes(const state_layout *of)
     return state_layout_of(of->dim, 0, of->n_obstacles, state_has_total(of, STATE_OBSTACLE));
 }
 
-/* On rank 0 what all ranks get: entries, and the quadratures as a state of no nodes. */
+/* The quadratures of the whole's state, which may be in a file, as a state of no nodes.
+ * \param number  0: those of positions, 1: of velocities */
+static dem_status read_quadratures(const state_layout *of, const dem_checkpoint *whole, const state_layout *none,
+                                   int number, double *y)
+{
+    const dem_index n = state_row(of, state_n_quadratures(of));
+    const dem_index from = number * state_velocities(of) + state_row(of, state_impulse(of, 0));
+    const dem_index to = number * state_velocities(none) + state_row(none, state_impulse(none, 0));
+    return checkpoint_entries_read(whole, entry, (size_t)from * sizeof *y, (size_t)n * sizeof *y, y + to);
+}
+
+/* On rank 0 what all ranks get: entries, and the quadratures. */
 static dem_status choose(const state_layout *of, const dem_checkpoint *whole, dem_checkpoint *part)
 {
     const state_layout none = without_nodes(of);
-    const size_t expected = (size_t)state_size(of) * sizeof(double);
-    size_t size;
     double *y;
-    const double *state = dem_checkpoint_find(whole, entry, &size);
-    CHECK(state != NULL && size == expected, DEM_ERROR_IO, "the checkpoint has %zu bytes of state, %zu are expected",
-          size, expected);
+    TRY(checkpoint_entries_check(whole, entry, (size_t)state_size(of) * sizeof *y));
     TRY(checkpoint_entries_choose(part, whole, is_for_all));
     TRY(make_state(part, quadratures, &none, &y));
-    state_copy_quadratures(y, &none, state, of);
+    for (int number = 0; number < 2; number++) TRY(read_quadratures(of, whole, &none, number, y));
     return DEM_OK;
 }
 
@@ -85,11 +92,10 @@ static dem_status spread_state(const dem_simulation *s, const dem_checkpoint *wh
     const size_t row = (size_t)of->dim * sizeof(double);
     size_t size;
     double *y = NULL;
-    const double *x = r->rank == 0 ? dem_checkpoint_find(whole, entry, &size) : NULL;
-    const double *v = r->rank == 0 ? x + state_velocities(of) : NULL;
+    checkpoint_row_source x = {whole, entry, 0, row}, v = {whole, entry, (size_t)of->n_rows * row, row};
     TRY(reduce_status(r, make_state(part, entry, &s->layout, &y), 0.0));
-    TRY(gather_back(r, &nodes, row, x, y));
-    TRY(gather_back(r, &nodes, row, v, y + state_velocities(&s->layout)));
+    TRY(gather_back(r, &nodes, row, checkpoint_entries_row_reader, &x, y));
+    TRY(gather_back(r, &nodes, row, checkpoint_entries_row_reader, &v, y + state_velocities(&s->layout)));
     state_copy_quadratures(y, &s->layout, dem_checkpoint_find(part, quadratures, &size), &none);
     return DEM_OK;
 }

@@ -17,13 +17,12 @@ int shared_peaks_number(const shared_peaks *s, const dem_peaks *whole)
 }
 
 /* From rank 0 to all, unless there are none yet. */
-static dem_status take(const dem_model *m, const dem_peaks *whole, dem_peaks *part)
+static dem_status take(const dem_model *m, dem_peaks *whole, dem_peaks *part)
 {
     const gather_items of_nodes = gather_nodes(m->domain), of_springs = gather_springs(m->domain, &m->lattice);
-    const bool is_root = whole != NULL;
-    if (!reduce_any(m->ranks, is_root && !whole->is_new)) return DEM_OK;
-    TRY(gather_back(m->ranks, &of_nodes, sizeof *part->nodes, is_root ? whole->nodes : NULL, part->nodes));
-    return gather_back(m->ranks, &of_springs, sizeof *part->springs, is_root ? whole->springs : NULL, part->springs);
+    if (!reduce_any(m->ranks, whole != NULL && !whole->is_new)) return DEM_OK;
+    TRY(gather_back(m->ranks, &of_nodes, sizeof *part->nodes, peaks_read_nodes, whole, part->nodes));
+    return gather_back(m->ranks, &of_springs, sizeof *part->springs, peaks_read_springs, whole, part->springs);
 }
 
 /* The other way round, to whom rank 0 has named. */

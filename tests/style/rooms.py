@@ -18,7 +18,7 @@ ROOMS = [  # pattern, files that may have it
     (r'#include [<"]hdf5\.h', {"src/output/hdf5_api.h"}),
     (r'#include [<"]gsl/', {"drivers/body/copies.c", "drivers/body/gsl_errors.c", "drivers/deck/profile.c",
                           "drivers/batch/preview.c"}),
-    (r"#include [<\"]zlib", {"src/base/checkpoint_entries.c", "src/base/section.c",
+    (r"#include [<\"]zlib", {"src/base/checkpoint_format.c", "src/base/section.c",
                           "src/output/hdf5_chunks.c"}),
     (r"#include [<\"]cairo", {"drivers/body/png.c", "drivers/plot/paint.c"}),
     (r"\b(f?printf|puts|fputs|putchar|perror|exit|abort|signal|sigaction|getenv)\s*\(", "drivers"),

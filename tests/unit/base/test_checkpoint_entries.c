@@ -11,6 +11,8 @@
 #include <unistd.h>
 
 #include "base/checkpoint_entries.h"
+#include "harness/cleanup.h"
+#include "harness/message.h"
 #include "harness/rank_threads.h"
 #include "unit/scratch.h"
 
@@ -199,6 +201,112 @@ TEST(entries_may_be_elsewhere)
     assert_null(dem_checkpoint_find(checkpoint, "numbers", &size));
     assert_int_equal(checkpoint_entries_bring(checkpoint), DEM_ERROR_MEMORY);
     assert_ok(dem_checkpoint_put(checkpoint, "numbers", e.number, sizeof e.number));
+    check(checkpoint);
+}
+
+/* ---- large entries, which stay in the file ---- */
+
+enum { LARGE = 10000 };
+
+static dem_checkpoint *make_large(void)
+{
+    dem_checkpoint *checkpoint = make();
+    CLEANUP(free_memory) double *numbers = malloc(LARGE * sizeof *numbers);
+    assert_non_null(numbers);
+    for (int k = 0; k < LARGE; k++) numbers[k] = k + 0.5;
+    assert_ok(dem_checkpoint_put(checkpoint, "large", numbers, LARGE * sizeof *numbers));
+    return checkpoint;
+}
+
+static dem_checkpoint *read_large(void)
+{
+    CLEANUP(free_checkpoint) dem_checkpoint *written = make_large();
+    dem_checkpoint *checkpoint;
+    assert_ok(dem_checkpoint_write(written, FILE_NAME));
+    assert_ok(dem_checkpoint_read(&checkpoint, FILE_NAME));
+    return checkpoint;
+}
+
+static void check_large(const dem_checkpoint *checkpoint)
+{
+    size_t size;
+    const double *numbers = dem_checkpoint_find(checkpoint, "large", &size);
+    assert_non_null(numbers);
+    assert_int_equal(size, LARGE * sizeof *numbers);
+    for (int k = 0; k < LARGE; k++) assert_close(numbers[k], k + 0.5, 0.0);
+    check(checkpoint);
+}
+
+/* The file of this name is another one by then. */
+TEST(entries_that_are_read_stay_what_they_were_in_their_file)
+{
+    CLEANUP(free_checkpoint) dem_checkpoint *checkpoint = read_large(), *copy = NULL, *moved = NULL;
+    double few[3];
+    assert_ok(dem_checkpoint_create(&copy));
+    assert_ok(dem_checkpoint_create(&moved));
+    assert_ok(checkpoint_entries_copy(copy, checkpoint));
+    assert_ok(dem_checkpoint_write(checkpoint, "test_checkpoint.good"));
+    assert_same_files(FILE_NAME, "test_checkpoint.good");
+    assert_ok(dem_checkpoint_put(checkpoint, "large", "less", 4));
+    assert_ok(dem_checkpoint_write(checkpoint, FILE_NAME));
+    assert_int_equal(unlink(FILE_NAME) + unlink(PREVIOUS), 0);
+    assert_ok(checkpoint_entries_move(moved, copy, NULL));
+    assert_ok(checkpoint_entries_read(moved, "large", 700 * sizeof *few, sizeof few, few));
+    assert_close(few[0], 700.5, 0.0);
+    assert_close(few[2], 702.5, 0.0);
+    assert_ok(checkpoint_entries_check(moved, "large", LARGE * sizeof *few));
+    assert_ok(dem_checkpoint_write(moved, FILE_NAME));
+    assert_same_files(FILE_NAME, "test_checkpoint.good");
+    check_large(moved);
+    assert_ok(dem_checkpoint_write(moved, FILE_NAME));
+    assert_same_files(FILE_NAME, "test_checkpoint.good");
+    (void)unlink("test_checkpoint.good");
+}
+
+static void share_large(const ranks *r, void *context)
+{
+    sharing *c = context;
+    CLEANUP(free_checkpoint) dem_checkpoint *own = NULL;
+    if (dem_checkpoint_create(&own) != DEM_OK) return;
+    dem_checkpoint *here = r->rank == 0 ? c->from : own;
+    double last = 0.0;
+    c->is_same[r->rank] =
+        checkpoint_entries_share(r, here) == DEM_OK &&
+        checkpoint_entries_read(here, "large", (LARGE - 1) * sizeof last, sizeof last, &last) == DEM_OK &&
+        fabs(last - (LARGE - 0.5)) < 1e-9;
+}
+
+TEST(ranks_get_entries_that_are_in_a_file_of_rank_0)
+{
+    CLEANUP(free_checkpoint) dem_checkpoint *from = read_large();
+    sharing c = {.from = from};
+    rank_threads_run(3, share_large, &c);
+    for (int k = 0; k < 3; k++) assert_true(c.is_same[k]);
+}
+
+static void refuse_large(dem_status got, const char *message)
+{
+    assert_int_equal(got, DEM_ERROR_IO);
+    assert_message_parts(message);
+}
+
+/* By somebody who writes to the file itself. */
+TEST(entries_of_a_file_that_has_been_cut_are_missed)
+{
+    CLEANUP(free_checkpoint) dem_checkpoint *checkpoint = read_large();
+    double last;
+    size_t size;
+    assert_int_equal(truncate(FILE_NAME, LARGE * sizeof last), 0);
+    refuse_large(checkpoint_entries_read(checkpoint, "large", (LARGE - 1) * sizeof last, sizeof last, &last),
+                 FILE_NAME ": cannot be read any more (it has been cut short");
+    refuse_large(dem_checkpoint_get(checkpoint, "large", &last, sizeof last), "80000 bytes of large, 8 are expected");
+    refuse_large(checkpoint_entries_read(checkpoint, "large", LARGE * sizeof last, 1, &last),
+                 "no 1 bytes of large from byte 80000 on");
+    refuse_large(checkpoint_entries_read(checkpoint, "small", 0, 1, &last), "no 1 bytes of small");
+    assert_null(dem_checkpoint_find(checkpoint, "large", &size));
+    assert_int_equal(size, 0);
+    refuse_large(dem_checkpoint_write(checkpoint, "test_checkpoint.good"), "cut short");
+    assert_int_not_equal(access("test_checkpoint.good", F_OK), 0);
     check(checkpoint);
 }
 

@@ -113,7 +113,8 @@ static void pass_many(const ranks *r, void *context)
     const gather_items items = {.n = n, .n_whole = MANY, .number = number, .is_own = is_own};
     m->is_good[r->rank] = gather_rows(r, &items, SIZE, rows, whole) == DEM_OK && pass_chunks(r, &items, rows, m);
     memset(rows, 0xee, (size_t)MANY * SIZE);
-    if (gather_back(r, &items, SIZE, whole, rows) != DEM_OK) m->is_good[r->rank] = false;
+    rows_here all = {SIZE, whole};
+    if (gather_back(r, &items, SIZE, rows_reader_copy, &all, rows) != DEM_OK) m->is_good[r->rank] = false;
     for (dem_index k = 0; k < SIZE * n; k++)
         if (rows[k] != byte_of(number[k / SIZE], k % SIZE)) m->is_good[r->rank] = false;
     free(number);
