@@ -19,11 +19,12 @@ void slab_plan_decide(deck *d, const command *c, double nodes)
     d->slabs.least = of_look;
 }
 
-/* Rank 0 has its share, and what it shows and writes of the whole (docs/performance.md). */
+/* Of a large body a rank takes up to 1.23 times its share, with common nodes and ghosts, and each process by itself 60
+ * to 80 MB (docs/performance.md). */
 void slab_plan_share_memory(estimate *e, const deck *d)
 {
-    static const double of_whole = 120.0; /* bytes a node */
-    if (d->slabs.n > 0) e->memory = fmin(e->memory, e->memory / (double)d->slabs.n + of_whole * e->nodes);
+    static const double of_share = 1.25, of_process = 8e7; /* bytes */
+    if (d->slabs.n > 0) e->memory = fmin(e->memory, of_share * e->memory / (double)d->slabs.n + of_process);
 }
 
 dem_status slab_plan_model(dem_model **out, const deck *d, const rank_group *ranks)

@@ -37,19 +37,19 @@ TEST(large_bodies_that_suit_are_made_by_several_ranks)
     assert_int_equal(slabs_for(&parts, 4, 1e6), 0);
 }
 
-/* 120 bytes for each node of the whole besides a share, but no more than a process alone. */
-TEST(the_largest_rank_has_a_share_and_what_is_written)
+/* 1.25 shares, and 80 MB of each process, but no more than a process alone. */
+TEST(the_largest_rank_has_a_share_and_what_each_process_takes)
 {
     CLEANUP(deck_free)
     deck d = deck_text_good(RUN "&body shape = 'disc', radius = 0.05, spacing = 1e-2, outline = 'lattice' /\n");
-    estimate whole = {.nodes = 1e6, .memory = 1e9}, of_4 = whole, small = {.nodes = 1e6, .memory = 1.5e8};
+    estimate whole = {.nodes = 1e6, .memory = 1e9}, of_4 = whole, small = {.nodes = 1e6, .memory = 1e8};
     slab_plan_share_memory(&whole, &d);
     assert_close(whole.memory, 1e9, 0.0);
     d.slabs.n = 4;
     slab_plan_share_memory(&of_4, &d);
-    assert_close(of_4.memory, 3.7e8, 0.0);
+    assert_close(of_4.memory, 3.925e8, 0.0);
     slab_plan_share_memory(&small, &d);
-    assert_close(small.memory, 1.5e8, 0.0);
+    assert_close(small.memory, 1e8, 0.0);
 }
 
 TEST_GROUP(scratch_make, scratch_remove);
