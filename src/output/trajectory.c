@@ -114,13 +114,14 @@ static dem_status flush(dem_trajectory *t)
     return leave_part(t, trajectory_rows_flush(&t->rows, &t->part));
 }
 
-/* The buffers of history and probes are emptied when the history's is full: no probe has more rows than that. */
+/* All buffers are emptied when one is full. A probe may have more rows than the history, which has none of some
+ * steps. */
 static dem_status on_step(void *context, const dem_simulation *simulation)
 {
     dem_trajectory *t = context;
     trajectory_rows *r = &t->rows;
     CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more steps", path_of(t));
-    if (r->history.table.buffered == TABLE_ROWS) TRY(flush(t));
+    if (trajectory_rows_are_full(r)) TRY(flush(t));
     TRY(history_record(&r->history, simulation));
     for (dem_index k = 0; k < r->options.n_probes; k++) TRY(probe_record(&r->probes[k], simulation));
     return DEM_OK;

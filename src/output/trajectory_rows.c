@@ -119,6 +119,14 @@ hsize_t trajectory_rows_create_bytes(const trajectory_rows *r)
 
 /* ---- rows ---- */
 
+/* Tables that are not wanted have no columns, and no rows. */
+bool trajectory_rows_are_full(const trajectory_rows *r)
+{
+    bool any = false;
+    for (int k = ROWS_HISTORY; k < r->n_kinds; k++) any = any || table_of(r, k)->buffered == TABLE_ROWS;
+    return any;
+}
+
 /* Frames are never buffered. */
 dem_status trajectory_rows_flush(trajectory_rows *r, const hdf5_file *file)
 {

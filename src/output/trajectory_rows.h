@@ -42,6 +42,9 @@ void trajectory_rows_free(trajectory_rows *r);
 dem_status trajectory_rows_create(const trajectory_rows *r, const hdf5_file *file);
 hsize_t trajectory_rows_create_bytes(const trajectory_rows *r);
 
+/** Whether the buffer of a table has no room for another row. */
+bool trajectory_rows_are_full(const trajectory_rows *r);
+
 /** Moves the buffered rows to the file; and an upper bound of the bytes that this adds. */
 dem_status trajectory_rows_flush(trajectory_rows *r, const hdf5_file *file);
 hsize_t trajectory_rows_flush_bytes(const trajectory_rows *r);

@@ -331,6 +331,26 @@ TEST(probes_and_peaks_are_in_the_file_in_the_end)
     }
 }
 
+/* So many steps that its buffer is full several times, between rows of the history and without frames. */
+TEST(a_probe_has_a_row_for_every_step_whatever_the_history_has)
+{
+    const dem_probe probe = {.name = "first", .kind = DEM_PROBE_NODE, .number = {0, 0}, .every = 1};
+    dem_trajectory_options options = dem_trajectory_options_default();
+    options.history_interval = 1.0, options.n_probes = 1, options.probes = &probe;
+    run r = begin(&options);
+    dem_counts counts = {.struct_size = sizeof counts};
+    assert_int_equal(dem_simulation_advance(r.simulation, 2600 * 2e-5), DEM_OK);
+    assert_int_equal(dem_simulation_counts(r.simulation, &counts), DEM_OK);
+    assert_true(counts.steps >= 2600);
+    assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
+    assert_int_equal(count_rows(r.path, "/history/t"), 1);
+    const table t = read_table(r.path, "/probes/first/t");
+    assert_int_equal(t.extent[0], counts.steps);
+    for (hsize_t k = 1; k < t.extent[0]; k++) assert_true(t.value[k] > t.value[k - 1]);
+    free(t.value);
+    end(&r);
+}
+
 TEST(the_part_can_be_looked_at_while_the_run_goes_on)
 {
     CLEANUP(end) run r = begin_usual();
