@@ -230,6 +230,7 @@ static dem_status find_own_rows(grid *own, const cut_rows *c, const row_counts *
 typedef struct draft {
     dem_slab slab;
     dem_index own;        /* where own nodes begin */
+    dem_index counted;    /* triangles below the rows that the rim has */
     unsigned char *flags; /* [n_nodes] not 0: on the boundary */
     bool *keep;           /* [n_triangles] those at own nodes */
     bool *marked;         /* [n_nodes] the other nodes of these: the rim */
@@ -243,10 +244,11 @@ static void place(draft *d, const cut_rows *c, const row_counts *n, const grid *
     d->slab.n_own = nodes_before(c, n, own->last + 1) - d->slab.first_node;
 }
 
-/* Takes the lattice of the range over. */
-static dem_status cut_out(draft *d, range *g)
+/* Takes the lattice of the range over.  \param rim_row  the first one with a rim */
+static dem_status cut_out(draft *d, range *g, dem_index rim_row)
 {
     d->own = count_nodes(g, g->at.rows.first, g->at.own.first);
+    d->counted = count_triangles(g, g->at.rows.first, rim_row);
     TRY(dem_lattice_trim(&g->lattice, g->keep));
     d->slab.lattice = g->lattice;
     g->lattice = dem_lattice_empty();
@@ -273,13 +275,13 @@ static dem_status mark(draft *d)
     return DEM_OK;
 }
 
-/* Of the triangles at own nodes. \param before  of the whole, triangles in rows before the range */
+/* Of the triangles at own nodes. \param before  of the whole, triangles below the rows that the rim has */
 static void number_triangles(draft *d, dem_index before)
 {
     const dem_index all = d->slab.lattice.n_triangles, n = count(d->keep, 0, all);
     dem_index first = 0;
     while (first < all && !d->keep[first]) first++;
-    d->slab.first_triangle = n > 0 && count(d->keep, first, first + n) == n ? before + first : -1;
+    d->slab.first_triangle = n > 0 && count(d->keep, first, first + n) == n ? before + (first - d->counted) : -1;
 }
 
 static bool has_rim(const draft *d, const dem_index *corner)
@@ -329,12 +331,13 @@ static void *shrink(void *array, dem_index n, size_t size)
     return smaller != NULL ? smaller : array;
 }
 
-static dem_status finish(draft *d, range *g, dem_index triangles_before_range)
+static dem_status finish(draft *d, range *g, const cut_rows *c, const row_counts *n)
 {
     dem_lattice *l = &d->slab.lattice;
-    TRY(cut_out(d, g));
+    const dem_index below = g->at.own.first - c->height, rim_row = below > c->whole.first ? below : c->whole.first;
+    TRY(cut_out(d, g, rim_row));
     TRY(mark(d));
-    number_triangles(d, triangles_before_range);
+    number_triangles(d, triangles_before(c, n, rim_row));
     TRY(mark_boundary(d));
     TRY(list_rim(d));
     TRY(dem_lattice_trim(l, d->keep));
@@ -349,7 +352,7 @@ static dem_status make(dem_slab *out, const cut_rows *c, const row_counts *n, co
     range g;
     dem_status status = open_range(&g, c, own->first, own->last, 2 * c->height);
     place(&d, c, n, own);
-    if (status == DEM_OK) status = finish(&d, &g, triangles_before(c, n, g.at.rows.first));
+    if (status == DEM_OK) status = finish(&d, &g, c, n);
     if (status == DEM_OK)
         *out = d.slab;
     else

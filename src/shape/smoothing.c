@@ -482,6 +482,14 @@ static void measure(smoothing *out, const draft *d)
     }
 }
 
+/* Of a part of which nothing is left no corner has a node. */
+static void measure_nothing(smoothing *out, const shape *s, const smoothing_part *part)
+{
+    draft d = {.shape = s, .part = part};
+    place_corners(&d);
+    *out = (smoothing){.n_cut = d.n_cut};
+}
+
 dem_status smoothing_apply(smoothing *out, dem_lattice *lattice, const struct shape *s, const smoothing_part *part)
 {
     draft d = {0};
@@ -497,5 +505,6 @@ dem_status smoothing_apply(smoothing *out, dem_lattice *lattice, const struct sh
         memcpy(lattice->x, d.x, 2 * (size_t)lattice->n_nodes * sizeof *d.x);
     }
     draft_free(&d);
+    if (status == DEM_ERROR_MODEL && part != NULL) measure_nothing(out, s, part);
     return status;
 }

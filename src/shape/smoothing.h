@@ -37,7 +37,7 @@ enum { SMOOTHING_HEIGHT = 2 };
 /* Cuts a smooth shape out of its shape_mesh(), or out of rows of it, and moves the nodes at the rim. A few pairs of
  * triangles get their other diagonal as their common side.
  * \param part  NULL: the lattice is the whole
- * \return DEM_OK, DEM_ERROR_MEMORY, or DEM_ERROR_MODEL if nothing is left */
+ * \return DEM_OK, DEM_ERROR_MEMORY, or DEM_ERROR_MODEL if nothing is left; *out of a part is known then, too */
 dem_status smoothing_apply(smoothing *out, dem_lattice *lattice, const struct shape *s, const smoothing_part *part);
 
 #endif

@@ -376,6 +376,30 @@ TEST(numbers_of_parts_add_up_to_those_of_the_whole)
     }
 }
 
+static bool is_high(void *context, const double *x)
+{
+    (void)context;
+    return x[1] > 290.0;
+}
+
+/* At its tip a needle is thinner than triangles. */
+TEST(corners_are_counted_where_nothing_is_left)
+{
+    double points[] = {-5.0, 0.0, 5.0, 0.0, 0.0, 300.0};
+    const shape s = {
+        .spacing = 1.0, .smooth = true, .outline = {.kind = DEM_OUTLINE_POLYGON, .n_points = 3, .points = points}};
+    const smoothing_part high = {295.0, (double)INFINITY}, low = {-(double)INFINITY, 295.0};
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
+    smoothing out = {0};
+    assert_int_equal(shape_mesh(&l, &s), DEM_OK);
+    assert_int_equal(dem_lattice_cut(&l, is_high, NULL), DEM_OK);
+    assert_int_equal(smoothing_apply(&out, &l, &s, &high), DEM_ERROR_MODEL);
+    assert_int_equal(out.n_cut, 1);
+    assert_int_equal(out.n_rim, 0);
+    assert_int_equal(smoothing_apply(&out, &l, &s, &low), DEM_ERROR_MODEL);
+    assert_int_equal(out.n_cut, 2); /* which another part has nodes at */
+}
+
 /* The spaces between these pores are as wide as triangles, so that many are poor, or unsound. */
 static shape draw_sponge(unsigned *state)
 {
