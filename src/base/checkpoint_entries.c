@@ -133,21 +133,29 @@ dem_status checkpoint_entries_copy(dem_checkpoint *into, const dem_checkpoint *f
     return checkpoint_entries_choose(into, from, NULL);
 }
 
+/* The first is empty then, but for its name. */
+static void hand_on(checkpoint_entry *from, checkpoint_entry *to)
+{
+    if (from == to) return;
+    *to = *from;
+    from->data = NULL;
+    from->file = NULL;
+    from->away.visit = NULL;
+    from->size = from->capacity = 0;
+}
+
 dem_status checkpoint_entries_move(dem_checkpoint *into, dem_checkpoint *from, checkpoint_entries_choice *takes)
 {
     dem_index n_left = 0;
     for (dem_index k = 0; k < from->n; k++) {
         checkpoint_entry *moved = &from->entries[k], *e;
         if (takes != NULL && !takes(moved->name)) {
-            from->entries[n_left++] = *moved;
+            hand_on(moved, &from->entries[n_left++]);
             continue;
         }
         TRY(checkpoint_entry_make_empty(into, moved->name, &e));
         free(e->data);
-        *e = *moved;
-        moved->data = NULL;
-        moved->file = NULL;
-        moved->size = moved->capacity = 0;
+        hand_on(moved, e);
     }
     from->n = n_left;
     return DEM_OK;
@@ -214,6 +222,7 @@ dem_status checkpoint_entries_share(const ranks *r, dem_checkpoint *checkpoint)
         r->reduce(r->self, &next, sizeof next, join_notices);
         if (next.is_last) return DEM_OK;
         checkpoint_entry *e = r->rank == 0 ? &checkpoint->entries[k] : NULL;
-        TRY(share_entry(r, &next, e != NULL && checkpoint_entry_bring(e) == DEM_OK ? e->data : NULL, checkpoint));
+        TRY(reduce_status(r, e != NULL ? checkpoint_entry_bring(e) : DEM_OK, 0.0));
+        TRY(share_entry(r, &next, e != NULL ? e->data : NULL, checkpoint));
     }
 }

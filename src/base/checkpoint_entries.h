@@ -61,7 +61,7 @@ typedef struct checkpoint_row_source {
 dem_status checkpoint_entries_row_reader(void *source, dem_index first, dem_index n, void *rows);
 
 /** Puts all entries of rank 0's checkpoint, of which other ranks have none, into that of every other rank. Collective.
- *  \return DEM_ERROR_MEMORY, on all ranks */
+ *  \return DEM_ERROR_MEMORY, DEM_ERROR_IO, on all ranks */
 dem_status checkpoint_entries_share(const ranks *r, dem_checkpoint *checkpoint);
 
 typedef struct checkpoint_entries_way {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The file of a checkpoint. It has a header of 64 bytes, then for each entry a head of 40 bytes and its bytes, filled
  * up with zeros to a multiple of 8. The checksum is the CRC-32 of the whole file with the checksum itself taken as 0.
- * Numbers are in the byte order of the machine, which the header states. A file that is read may be damaged or hostile:
- * no size in it is trusted beyond the bytes that the file has. Large entries are read for the checksum, and stay in the
- * file until somebody looks at them. A file that is written is synced and read back before it takes its name
- * (publish.c), and the file that had this name is kept as NAME.prev. */
+ * Numbers are in the byte order of the machine, which the header states. A file that is read may be damaged or
+ * hostile: no size in it is trusted beyond the bytes that the file has. Entries with rows of all nodes or springs are
+ * read for the checksum, and stay in the file until somebody looks at them. A file that is written is synced and read
+ * back before it takes its name (publish.c), and the file that had this name is kept as NAME.prev. */
 #include "base/checkpoint_entry.h"
 
 #include <errno.h>
@@ -22,7 +22,9 @@
 
 enum { FORMAT = 1, UNIT = 8, BLOCK = 1 << 14 };
 
-enum { LARGE = 1 << 16 }; /* bytes of an entry that stays in the file */
+enum { LARGE = 1 << 16 }; /* bytes of an entry that stays in the file, if its name is one of */
+/* Who reads these asks for rows, and takes failures; of others that are not there checkpoints may have none. */
+static const char *const of_rows[] = {"state", "peaks.nodes", "peaks.springs"};
 
 /* The end of a line in it shows a transfer that converted line ends. */
 static const char magic[8] = "demrec\r\n";
@@ -185,12 +187,20 @@ static dem_status leave(stream *s, checkpoint_entry *e, size_t size)
     return skip(s, size);
 }
 
+static bool stays(const head *first)
+{
+    bool is_named = false;
+    for (size_t k = 0; k < sizeof of_rows / sizeof *of_rows; k++)
+        is_named = is_named || strcmp(first->name, of_rows[k]) == 0;
+    return is_named && first->size >= LARGE;
+}
+
 static dem_status get_data(stream *s, dem_checkpoint *checkpoint, const head *first)
 {
     const size_t size = (size_t)first->size;
     checkpoint_entry *e;
-    TRY(checkpoint_entry_make(checkpoint, first->name, size < LARGE ? size : 0, &e));
-    if (size >= LARGE) return leave(s, e, size);
+    TRY(checkpoint_entry_make(checkpoint, first->name, stays(first) ? 0 : size, &e));
+    if (stays(first)) return leave(s, e, size);
     TRY(get(s, e->data, size));
     e->size = size;
     return DEM_OK;

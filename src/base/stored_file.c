@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -10,9 +11,9 @@
 #include "base/status.h"
 
 struct stored_file {
-    int number; /* of the open file */
-    dem_index n_holders;
-    char path[]; /* as it was called then */
+    int number;           /* of the open file */
+    atomic_int n_holders; /* which may be in several threads */
+    char path[];          /* as it was called then */
 };
 
 dem_status stored_file_open(stored_file **out, FILE *stream, const char *path)
@@ -20,7 +21,7 @@ dem_status stored_file_open(stored_file **out, FILE *stream, const char *path)
     stored_file *f = malloc(sizeof *f + strlen(path) + 1);
     CHECK_MEMORY(f);
     memcpy(f->path, path, strlen(path) + 1);
-    f->n_holders = 1;
+    atomic_init(&f->n_holders, 1);
     f->number = fcntl(fileno(stream), F_DUPFD_CLOEXEC, 0);
     if (f->number >= 0) {
         *out = f;
@@ -32,13 +33,13 @@ dem_status stored_file_open(stored_file **out, FILE *stream, const char *path)
 
 stored_file *stored_file_hold(stored_file *f)
 {
-    f->n_holders++;
+    (void)atomic_fetch_add(&f->n_holders, 1);
     return f;
 }
 
 void stored_file_drop(stored_file *f)
 {
-    if (f == NULL || --f->n_holders > 0) return;
+    if (f == NULL || atomic_fetch_sub(&f->n_holders, 1) > 1) return;
     (void)close(f->number);
     free(f);
 }

@@ -84,17 +84,20 @@ static dem_status take_checkpoint(led_run *l, dem_checkpoint *from)
     return observers_checkpoint(&whole->observers, whole, whole->checkpoint);
 }
 
-void leader_observers_look_ahead(led_run *l, const dem_checkpoint *checkpoint)
+dem_status leader_observers_look_ahead(led_run *l, const dem_checkpoint *checkpoint)
 {
     const dem_lattice *lattice = &l->whole->model->lattice;
     near_contact_state state = {l->whole->t, lattice->position, lattice->velocity};
     size_t size;
-    if (l->near.model == NULL) return; /* or a checkpoint's state would be gathered for nothing */
+    if (l->near.model == NULL) return DEM_OK; /* or a checkpoint's state would be gathered for nothing */
     if (checkpoint != NULL) {
+        TRY(checkpoint_entries_check(checkpoint, "state", (size_t)state_size(&l->whole->layout) * sizeof *state.x));
         state.x = dem_checkpoint_find(checkpoint, "state", &size);
+        if (state.x == NULL) return DEM_ERROR_MEMORY; /* or DEM_ERROR_IO, as the message says */
         state.v = state.x + state_velocities(&l->whole->layout);
     }
     near_contact_look(&l->near, &state);
+    return DEM_OK;
 }
 
 /* A part goes on from a checkpoint as one does that begins there: so nodes may be shared out anew, or other ones be
@@ -107,7 +110,7 @@ static dem_status lead_checkpoint(void *context, const dem_simulation *part, dem
     (void)hold(l);
     led_ranks_pass_checkpoint(l);
     dem_status status = take_checkpoint(l, checkpoint);
-    if (status == DEM_OK) leader_observers_look_ahead(l, l->whole->checkpoint);
+    if (status == DEM_OK) status = leader_observers_look_ahead(l, l->whole->checkpoint);
     l->weighs_anew = status == DEM_OK && pays;
     l->shares_anew =
         l->weighs_anew || (status == DEM_OK && near_contact_is_outdated(&l->near, l->busy, l->balance.price));

@@ -20,7 +20,8 @@ extern const led_observers leader_observers;
 /** The whole shows what the part of rank 0 does; what is known of that is asked for anew. */
 void leader_observers_show(const led_run *l);
 
-/** Looks which nodes may touch soon.  \param checkpoint  NULL: from the start on */
-void leader_observers_look_ahead(led_run *l, const dem_checkpoint *checkpoint);
+/** Looks which nodes may touch soon.  \param checkpoint  NULL: from the start on  \return DEM_ERROR_IO,
+ *  DEM_ERROR_MEMORY */
+dem_status leader_observers_look_ahead(led_run *l, const dem_checkpoint *checkpoint);
 
 #endif

@@ -476,7 +476,7 @@ static dem_status lead(led_run *l, const dem_checkpoint *checkpoint)
     CHECK(l->options->force == NULL, DEM_ERROR_ARGUMENT, "rank 0 cannot lead a run with an external force");
     TRY(balance_create(&l->balance, l->ranks.size));
     if (l->ranks.size > 1 && !l->is_of_slabs) TRY(near_contact_create(&l->near, l->whole->model, &l->whole->options));
-    leader_observers_look_ahead(l, checkpoint);
+    TRY(leader_observers_look_ahead(l, checkpoint));
     near_contact_take(&l->near, 0.0, 0.0);
     TRY(begin(l, checkpoint));
     if (l->is_of_slabs) l->whole->options = l->part->options; /* which depend on arrays */

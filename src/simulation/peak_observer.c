@@ -19,8 +19,7 @@ typedef dem_status bring(dem_peaks *peaks);
 static const dem_peaks *brought(const dem_peaks *peaks, bool is_there, bring *of_one_kind)
 {
     dem_peaks *p = (dem_peaks *)(uintptr_t)peaks;
-    if (peaks_load(p) != DEM_OK) peaks_give_up(p);
-    if (!p->are_away || is_there) return p;
+    if (peaks_load(p) != DEM_OK || !p->are_away || is_there) return p;
     peaks_give_up(p);
     if (of_one_kind(p) != DEM_OK) peaks_give_up(p);
     return p;

@@ -73,13 +73,18 @@ dem_status peaks_make_spring_room(dem_peaks *p)
     return DEM_OK;
 }
 
-void peaks_give_up(dem_peaks *p)
+static void drop_entries(dem_peaks *p)
 {
     free(p->nodes);
     free(p->springs);
-    dem_checkpoint_destroy(p->from);
     p->nodes = NULL;
     p->springs = NULL;
+}
+
+void peaks_give_up(dem_peaks *p)
+{
+    drop_entries(p);
+    dem_checkpoint_destroy(p->from);
     p->from = NULL;
 }
 
@@ -117,13 +122,22 @@ dem_status peaks_put(const dem_peaks *p, dem_checkpoint *into)
     return dem_checkpoint_put(into, peaks_entry_springs, p->springs, bytes_of_springs(p));
 }
 
-dem_status peaks_load(dem_peaks *p)
+static dem_status load(dem_peaks *p)
 {
-    if (p->from == NULL) return DEM_OK;
     TRY(peaks_make_node_room(p));
     TRY(peaks_make_spring_room(p));
     TRY(dem_checkpoint_get(p->from, peaks_entry_nodes, p->nodes, bytes_of_nodes(p)));
-    TRY(dem_checkpoint_get(p->from, peaks_entry_springs, p->springs, bytes_of_springs(p)));
+    return dem_checkpoint_get(p->from, peaks_entry_springs, p->springs, bytes_of_springs(p));
+}
+
+dem_status peaks_load(dem_peaks *p)
+{
+    if (p->from == NULL) return DEM_OK;
+    const dem_status status = load(p);
+    if (status != DEM_OK) {
+        drop_entries(p);
+        return status;
+    }
     dem_checkpoint_destroy(p->from);
     p->from = NULL;
     return DEM_OK;

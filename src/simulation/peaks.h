@@ -24,7 +24,8 @@ struct dem_peaks {
 dem_status peaks_make_node_room(dem_peaks *p);
 dem_status peaks_make_spring_room(dem_peaks *p);
 
-/** Reads the entries from the checkpoint that has them, if one does.  \return DEM_ERROR_IO, DEM_ERROR_MEMORY */
+/** Reads the entries from the checkpoint that has them, if one does.
+ *  \return DEM_ERROR_IO, DEM_ERROR_MEMORY; then it has them still, and there are none here */
 dem_status peaks_load(dem_peaks *p);
 
 /** Read rows of those of nodes, or of springs, from there or from here: rows_reader.  \param peaks  dem_peaks */

@@ -214,7 +214,7 @@ static dem_checkpoint *make_large(void)
     CLEANUP(free_memory) double *numbers = malloc(LARGE * sizeof *numbers);
     assert_non_null(numbers);
     for (int k = 0; k < LARGE; k++) numbers[k] = k + 0.5;
-    assert_ok(dem_checkpoint_put(checkpoint, "large", numbers, LARGE * sizeof *numbers));
+    assert_ok(dem_checkpoint_put(checkpoint, "state", numbers, LARGE * sizeof *numbers));
     return checkpoint;
 }
 
@@ -230,7 +230,7 @@ static dem_checkpoint *read_large(void)
 static void check_large(const dem_checkpoint *checkpoint)
 {
     size_t size;
-    const double *numbers = dem_checkpoint_find(checkpoint, "large", &size);
+    const double *numbers = dem_checkpoint_find(checkpoint, "state", &size);
     assert_non_null(numbers);
     assert_int_equal(size, LARGE * sizeof *numbers);
     for (int k = 0; k < LARGE; k++) assert_close(numbers[k], k + 0.5, 0.0);
@@ -247,14 +247,14 @@ TEST(entries_that_are_read_stay_what_they_were_in_their_file)
     assert_ok(checkpoint_entries_copy(copy, checkpoint));
     assert_ok(dem_checkpoint_write(checkpoint, "test_checkpoint.good"));
     assert_same_files(FILE_NAME, "test_checkpoint.good");
-    assert_ok(dem_checkpoint_put(checkpoint, "large", "less", 4));
+    assert_ok(dem_checkpoint_put(checkpoint, "state", "less", 4));
     assert_ok(dem_checkpoint_write(checkpoint, FILE_NAME));
     assert_int_equal(unlink(FILE_NAME) + unlink(PREVIOUS), 0);
     assert_ok(checkpoint_entries_move(moved, copy, NULL));
-    assert_ok(checkpoint_entries_read(moved, "large", 700 * sizeof *few, sizeof few, few));
+    assert_ok(checkpoint_entries_read(moved, "state", 700 * sizeof *few, sizeof few, few));
     assert_close(few[0], 700.5, 0.0);
     assert_close(few[2], 702.5, 0.0);
-    assert_ok(checkpoint_entries_check(moved, "large", LARGE * sizeof *few));
+    assert_ok(checkpoint_entries_check(moved, "state", LARGE * sizeof *few));
     assert_ok(dem_checkpoint_write(moved, FILE_NAME));
     assert_same_files(FILE_NAME, "test_checkpoint.good");
     check_large(moved);
@@ -272,7 +272,7 @@ static void share_large(const ranks *r, void *context)
     double last = 0.0;
     c->is_same[r->rank] =
         checkpoint_entries_share(r, here) == DEM_OK &&
-        checkpoint_entries_read(here, "large", (LARGE - 1) * sizeof last, sizeof last, &last) == DEM_OK &&
+        checkpoint_entries_read(here, "state", (LARGE - 1) * sizeof last, sizeof last, &last) == DEM_OK &&
         fabs(last - (LARGE - 0.5)) < 1e-9;
 }
 
@@ -297,13 +297,13 @@ TEST(entries_of_a_file_that_has_been_cut_are_missed)
     double last;
     size_t size;
     assert_int_equal(truncate(FILE_NAME, LARGE * sizeof last), 0);
-    refuse_large(checkpoint_entries_read(checkpoint, "large", (LARGE - 1) * sizeof last, sizeof last, &last),
+    refuse_large(checkpoint_entries_read(checkpoint, "state", (LARGE - 1) * sizeof last, sizeof last, &last),
                  FILE_NAME ": cannot be read any more (it has been cut short");
-    refuse_large(dem_checkpoint_get(checkpoint, "large", &last, sizeof last), "80000 bytes of large, 8 are expected");
-    refuse_large(checkpoint_entries_read(checkpoint, "large", LARGE * sizeof last, 1, &last),
-                 "no 1 bytes of large from byte 80000 on");
+    refuse_large(dem_checkpoint_get(checkpoint, "state", &last, sizeof last), "80000 bytes of state, 8 are expected");
+    refuse_large(checkpoint_entries_read(checkpoint, "state", LARGE * sizeof last, 1, &last),
+                 "no 1 bytes of state from byte 80000 on");
     refuse_large(checkpoint_entries_read(checkpoint, "small", 0, 1, &last), "no 1 bytes of small");
-    assert_null(dem_checkpoint_find(checkpoint, "large", &size));
+    assert_null(dem_checkpoint_find(checkpoint, "state", &size));
     assert_int_equal(size, 0);
     refuse_large(dem_checkpoint_write(checkpoint, "test_checkpoint.good"), "cut short");
     assert_int_not_equal(access("test_checkpoint.good", F_OK), 0);

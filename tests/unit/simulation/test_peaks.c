@@ -4,9 +4,13 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "base/peak_source.h"
+#include "harness/cleanup.h"
 #include "harness/message.h"
 #include "harness/motion.h"
+#include "simulation/peaks.h"
 #include "unit/solids.h"
 
 enum { most_nodes = 64, most_springs = 160 };
@@ -160,4 +164,36 @@ TEST(impossible_arguments_are_refused)
     assert_null(peaks);
     dem_peaks_destroy(NULL);
     free_fall(f);
+}
+
+/* Of so many nodes that their entries stay in the file, which somebody then cuts: nothing is made up, or lost. */
+TEST(peaks_of_a_checkpoint_that_cannot_be_read_any_more_are_an_error)
+{
+    static const char path[] = "test_peaks.checkpoint";
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.5, 0.5, 0.01);
+    dem_model *model = support_model(&lattice, NULL, 0);
+    dem_peaks *fresh = NULL, *peaks = NULL;
+    CLEANUP(free_checkpoint) dem_checkpoint *written = NULL;
+    CLEANUP(free_checkpoint) dem_checkpoint *checkpoint = NULL;
+    assert_ok(dem_peaks_create(&fresh, model, 2));
+    assert_ok(dem_checkpoint_create(&written));
+    const dem_observer observer = ask_peaks_observer(fresh);
+    assert_ok(observer.checkpoint(observer.context, NULL, written));
+    assert_ok(dem_checkpoint_write(written, path));
+    assert_ok(dem_checkpoint_read(&checkpoint, path));
+    assert_ok(dem_peaks_resume(&peaks, model, 2, checkpoint));
+    assert_int_equal(truncate(path, 1000), 0);
+    for (int k = 0; k < 2; k++) {
+        dem_index n = 3, list[3];
+        dem_node_peak largest[3];
+        assert_null(dem_peaks_nodes(peaks));
+        assert_null(dem_peaks_springs(peaks));
+        assert_int_equal(peaks_look(peaks, NULL), DEM_ERROR_IO);
+        assert_message_parts("test_peaks.checkpoint: cannot be read any more");
+        assert_int_equal(dem_private_peaks_largest_nodes(peaks, &n, list, largest), DEM_ERROR_IO);
+    }
+    assert_int_equal(unlink(path), 0);
+    dem_peaks_destroy(peaks);
+    dem_peaks_destroy(fresh);
+    dem_model_destroy(model);
 }
