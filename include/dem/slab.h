@@ -69,8 +69,8 @@ DEM_API dem_status dem_slab_squares(dem_slab *out, double width, double height, 
  *  rows on each side.
  *  \param shape  not numbered, as triangles are numbered in the whole
  *  \return as dem_shape_lattice(), also where a void lies wholly outside of the body; DEM_ERROR_MODEL for more parts
- *          than rows in which something is left, and where triangles at a smooth edge depend on what is farther off:
- *          none was seen in plates and discs with a quarter of random pores */
+ *          than rows in which something is left, and where triangles at a smooth edge depend on what is farther off,
+ *          as in about one of 1000 random shapes with pores that overlap */
 DEM_API dem_status dem_slab_shape(dem_slab *out, const dem_shape *shape, dem_index part, dem_index n_parts);
 
 /** Moves nodes as dem_lattice_jitter() moves those of the whole. For slabs as they are made.

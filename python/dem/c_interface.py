@@ -1713,7 +1713,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any], str]] = {  # result, arguments, text
         shape not numbered, as triangles are numbered in the whole
         Returns as dem_shape_lattice(), also where a void lies wholly outside of the body; DEM_ERROR_MODEL for more
         parts than rows in which something is left, and where triangles at a smooth edge depend on what is farther
-        off: none was seen in plates and discs with a quarter of random pores"""),
+        off, as in about one of 1000 random shapes with pores that overlap"""),
     "dem_slab_jitter": (c_int, [POINTER(dem_slab), c_double, c_uint64],
         """dem_slab_jitter(slab, radius, seed)
         Moves nodes as dem_lattice_jitter() moves those of the whole. For slabs as they are made.

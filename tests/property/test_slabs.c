@@ -16,6 +16,7 @@
 #include "domain/domain.h"
 #include "harness/cleanup.h"
 #include "harness/cleanup_gsl.h"
+#include "harness/message.h"
 #include "lattice/lattice_arrays.h"
 #include "lattice/mesh_edges.h"
 #include "output/lattice_file.h"
@@ -366,7 +367,9 @@ TEST(slabs_are_the_rows_of_the_whole)
 
 enum { MOST_PORES = 40 };
 
-static long n_smooth, n_flips; /* slabs compared; of them those with triangles that do not follow each other */
+/* Slabs compared; of them those with triangles that do not follow each other; and shapes that slabs are refused of,
+ * about one of 1000, in which pores overlap. */
+static long n_smooth, n_flips, n_refused;
 
 /* Spacing 1, so many rows that slabs do not see all of them. */
 static void draw_tall(dem_shape *s, dem_outline *o, double *points, double *pores, gsl_rng *random)
@@ -409,7 +412,13 @@ static void compare_smooth(const dem_lattice *whole, const dem_shape *s, dem_ind
     const bool good = dem_lattice_jitter(&jittered, jitter, 3) == DEM_OK;
     for (dem_index part = 0; part < n_parts; part++) {
         CLEANUP(dem_slab_free) dem_slab slab = dem_slab_empty();
-        assert_ok(dem_slab_shape(&slab, s, part, n_parts));
+        const dem_status status = dem_slab_shape(&slab, s, part, n_parts);
+        if (part == 0 && status == DEM_ERROR_MODEL) {
+            assert_message_parts("triangles at smooth edges go by what is too far off for a slab");
+            n_refused++;
+            return;
+        }
+        assert_ok(status);
         assert_same_nodes(whole, &slab, &next);
         assert_same_rim(whole, &slab);
         assert_same_triangles(whole, &slab);
@@ -436,7 +445,8 @@ TEST(slabs_of_smooth_edges_are_rows_of_the_whole)
         draw_tall(&s, &o, points, pores, random);
         if (dem_shape_lattice(&whole, &s, NULL) == DEM_OK) compare_smooth(&whole, &s, 2 + k % 6, random);
     }
-    assert_true(n_smooth > n_cases / 50 && (n_flips > 0 || n_cases < 1000));
+    assert_true(n_smooth > n_cases / 50 && n_refused <= 1 + n_cases / 2000);
+    assert_true(n_flips > 0 || n_cases < 10000);
 }
 
 /* ---- slabs of files ---- */
