@@ -154,7 +154,6 @@ dem_status checkpoint_entries_move(dem_checkpoint *into, dem_checkpoint *from, c
             continue;
         }
         TRY(checkpoint_entry_make_empty(into, moved->name, &e));
-        free(e->data);
         hand_on(moved, e);
     }
     from->n = n_left;

@@ -20,19 +20,6 @@ static dem_status lacks_memory(const grid *rows)
 
 /* ---- a range of rows ---- */
 
-/* How many nodes of a grid are in rows before `row`, and triangles likewise. */
-static dem_index nodes_below(const grid *g, dem_index row)
-{
-    const grid before = grid_between(g, g->first, row - 1);
-    return grid_count_nodes(&before);
-}
-
-static dem_index triangles_below(const grid *g, dem_index row)
-{
-    const grid strips = grid_between(g, g->first, row);
-    return grid_count_triangles(&strips);
-}
-
 typedef struct range {
     cut_range at;
     dem_lattice lattice; /* all of them */
@@ -80,12 +67,12 @@ static dem_index count(const bool *flags, dem_index begin, dem_index end)
 /* What stays in rows from `first` on, before `end`; of triangles those above each row. */
 static dem_index count_nodes(const range *g, dem_index first, dem_index end)
 {
-    return count(g->stays, nodes_below(&g->at.rows, first), nodes_below(&g->at.rows, end));
+    return count(g->stays, grid_nodes_below(&g->at.rows, first), grid_nodes_below(&g->at.rows, end));
 }
 
 static dem_index count_triangles(const range *g, dem_index first, dem_index end)
 {
-    return count(g->keep, triangles_below(&g->at.rows, first), triangles_below(&g->at.rows, end));
+    return count(g->keep, grid_triangles_below(&g->at.rows, first), grid_triangles_below(&g->at.rows, end));
 }
 
 /* ---- counts of all rows ---- */
@@ -112,19 +99,19 @@ static row_counts counts_in(dem_index *list)
 
 static dem_index nodes_before(const cut_rows *c, const row_counts *n, dem_index row)
 {
-    return n->nodes != NULL ? n->nodes[row - c->whole.first] : nodes_below(&c->whole, row);
+    return n->nodes != NULL ? n->nodes[row - c->whole.first] : grid_nodes_below(&c->whole, row);
 }
 
 static dem_index triangles_before(const cut_rows *c, const row_counts *n, dem_index row)
 {
-    return n->triangles != NULL ? n->triangles[row - c->whole.first] : triangles_below(&c->whole, row);
+    return n->triangles != NULL ? n->triangles[row - c->whole.first] : grid_triangles_below(&c->whole, row);
 }
 
 /* Whether a triangle between this row and the next one has a node below them. */
-static bool hangs_down(const range *g, dem_index row)
+static bool has_node_below(const range *g, dem_index row)
 {
-    const dem_index above = nodes_below(&g->at.rows, row), end = 3 * triangles_below(&g->at.rows, row + 1);
-    for (dem_index k = 3 * triangles_below(&g->at.rows, row); k < end; k++)
+    const dem_index above = grid_nodes_below(&g->at.rows, row), end = 3 * grid_triangles_below(&g->at.rows, row + 1);
+    for (dem_index k = 3 * grid_triangles_below(&g->at.rows, row); k < end; k++)
         if (g->keep[k / 3] && g->lattice.triangles[k] < above) return true;
     return false;
 }
@@ -138,7 +125,7 @@ static dem_status count_some(row_counts *n, const cut_rows *c, dem_index first, 
         const dem_index k = row - c->whole.first;
         n->nodes[k + 1] = n->nodes[k] + count_nodes(&g, row, row + 1);
         n->triangles[k + 1] = n->triangles[k] + count_triangles(&g, row, row + 1);
-        n->joined[k] = c->height > 1 && hangs_down(&g, row);
+        n->joined[k] = c->height > 1 && has_node_below(&g, row);
     }
     close_range(&g);
     return status;

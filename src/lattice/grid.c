@@ -50,6 +50,18 @@ dem_index grid_count_triangles(const grid *g)
     return g->last > g->first ? (g->last - g->first) * in_strip : 0;
 }
 
+dem_index grid_nodes_below(const grid *g, dem_index row)
+{
+    const grid before = grid_between(g, g->first, row - 1);
+    return grid_count_nodes(&before);
+}
+
+dem_index grid_triangles_below(const grid *g, dem_index row)
+{
+    const grid strips = grid_between(g, g->first, row);
+    return grid_count_triangles(&strips);
+}
+
 static double *make_nodes(const grid *g)
 {
     const double height = grid_height(g);

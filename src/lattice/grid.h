@@ -39,6 +39,10 @@ double grid_height(const grid *g);
 dem_index grid_count_nodes(const grid *g);
 dem_index grid_count_triangles(const grid *g);
 
+/** The number of nodes in rows below `row`, and of triangles below it. */
+dem_index grid_nodes_below(const grid *g, dem_index row);
+dem_index grid_triangles_below(const grid *g, dem_index row);
+
 /** Its nodes, row by row, and triangles, strip by strip between two rows: counter-clockwise, of squares those of a cell
  *  next to each other.
  *  \param[out] out  an empty lattice; dem_lattice_free() frees it  \return DEM_ERROR_MEMORY */

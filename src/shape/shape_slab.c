@@ -54,25 +54,13 @@ typedef struct wide_rows {
     dem_index n_nodes, n_triangles; /* in rows before the wanted ones */
 } wide_rows;
 
-static dem_index nodes_before(const grid *rows, dem_index row)
-{
-    const grid before = grid_between(rows, rows->first, row - 1);
-    return grid_count_nodes(&before);
-}
-
-static dem_index triangles_before(const grid *rows, dem_index row)
-{
-    const grid before = grid_between(rows, rows->first, row);
-    return grid_count_triangles(&before);
-}
-
 /* Those about a range of rows. To be freed after a failure, too. */
 static dem_status make_wide(wide_rows *w, const cutter *c, const grid *rows)
 {
     const grid wide = grid_between(&c->grid.rows, rows->first - SMOOTHING_ROWS, rows->last + SMOOTHING_ROWS);
     *w = (wide_rows){.rows = wide, .lattice = dem_lattice_empty()};
-    w->n_nodes = nodes_before(&wide, rows->first);
-    w->n_triangles = triangles_before(&wide, rows->first);
+    w->n_nodes = grid_nodes_below(&wide, rows->first);
+    w->n_triangles = grid_triangles_below(&wide, rows->first);
     TRY(grid_lattice(&w->lattice, &wide));
     TRY(triangle_numbers_add(&w->lattice));
     w->lattice.mass = lattice_zeros(w->lattice.n_nodes, sizeof *w->lattice.mass);
@@ -96,7 +84,7 @@ static void add_report(smoothing *sum, const smoothing *out)
     sum->n_rim += out->n_rim;
     sum->n_off += out->n_off;
     sum->n_cut += out->n_cut;
-    sum->n_open += out->n_open;
+    sum->n_unsettled += out->n_unsettled;
     sum->farthest = fmax(sum->farthest, out->farthest);
 }
 
@@ -162,8 +150,8 @@ static dem_index count_kept(const bool *keep, dem_index begin, dem_index end)
 
 static dem_status take_more(cutter *c, const cut_range *range, const dem_lattice *rows, bool *keep)
 {
-    const dem_index begin = triangles_before(&range->rows, range->own.first);
-    const dem_index end = triangles_before(&range->rows, range->own.last + 1);
+    const dem_index begin = grid_triangles_below(&range->rows, range->own.first);
+    const dem_index end = grid_triangles_below(&range->rows, range->own.last + 1);
     if (c->more == NULL || c->more->cut == NULL) return DEM_OK;
     const dem_index n = count_kept(keep, begin, end);
     TRY(c->more->cut(c->more->program, rows, keep, begin, end));
@@ -206,7 +194,7 @@ static cut_rows rows_to_cut(cutter *c)
                       .least = is_smooth ? 4 * SMOOTHING_ROWS : 0};
 }
 
-static void tell(dem_private_rows *found, const cutter *c)
+static void put_found(dem_private_rows *found, const cutter *c)
 {
     found->n_taken = c->n_taken;
     found->report.n_rim = c->out.n_rim;
@@ -219,7 +207,7 @@ static dem_status count(cutter *c, const cut_rows *rows, const dem_shape *ours, 
 {
     dem_slab none = dem_slab_empty();
     TRY(cut_rows_between(&none, rows, asked->counts, 0, 0));
-    tell(asked->rows, c);
+    put_found(asked->rows, c);
     return check_voids(c, ours);
 }
 
@@ -240,9 +228,9 @@ static dem_status make(dem_slab *out, cutter *c, const dem_shape *ours, const ro
     TRY(shape_input_check_size(ours, shape_find_grid(&c->grid, c->shape)));
     TRY(list_idle(c, ours->n_voids));
     TRY(cut(out, c, ours, asked));
-    CHECK(c->out.n_open == 0, DEM_ERROR_MODEL,
+    CHECK(c->out.n_unsettled == 0, DEM_ERROR_MODEL,
           "%s: %lld triangles at smooth edges go by what is too far off for a slab: its lattice can be made as a whole",
-          shape_input_name(ours), (long long)c->out.n_open);
+          shape_input_name(ours), (long long)c->out.n_unsettled);
     return DEM_OK;
 }
 

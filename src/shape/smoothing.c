@@ -50,7 +50,7 @@ typedef struct draft {
     rim_node *at;            /* [n_nodes] for those of the rim */
     dem_index n_rim, *rim;   /* the nodes at the rim */
     dem_index n_cut;         /* corners without a node */
-    dem_index n_open;        /* triangles as `smoothing` has them */
+    dem_index n_unsettled;   /* triangles as `smoothing` has them */
     dem_index n_near, *near; /* triangles with a node that may move */
     dem_index *choice;       /* [n_triangles] of a poor one the side that is to go; -1: none */
     gain_at *best;           /* [n_triangles] of its sides that are to go */
@@ -249,7 +249,7 @@ static dem_status drop_flat_ears(draft *d, bool is_last, dem_index *n)
     for (dem_index t = 0; t < n_triangles; t++) {
         keep[t] = !is_flat_ear(d, t);
         *n += !keep[t];
-        d->n_open += is_last && !keep[t] && has_own(d, t);
+        d->n_unsettled += is_last && !keep[t] && has_own(d, t);
     }
     const dem_status status = *n > 0 && !is_last ? dem_lattice_trim(d->lattice, keep) : DEM_OK;
     free(keep);
@@ -460,7 +460,7 @@ static void move_unsound_back(draft *d)
     dem_index n_own;
     for (int pass = 1; mark_unsound(d, d->marked, &n_own); pass++) {
         if (d->part != NULL && pass == sound_passes) {
-            d->n_open += n_own;
+            d->n_unsettled += n_own;
             return;
         }
         move_marked_back(d);
@@ -469,7 +469,7 @@ static void move_unsound_back(draft *d)
 
 static void measure(smoothing *out, const draft *d)
 {
-    *out = (smoothing){.n_cut = d->n_cut, .n_open = d->n_open};
+    *out = (smoothing){.n_cut = d->n_cut, .n_unsettled = d->n_unsettled};
     for (dem_index k = 0; k < d->n_rim; k++) {
         const dem_index i = d->rim[k];
         if (!is_own(d, i)) continue;

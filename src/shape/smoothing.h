@@ -10,16 +10,15 @@ struct shape;
 
 /* What came out. */
 typedef struct smoothing {
-    dem_index n_rim;  /* nodes at the rim */
-    dem_index n_off;  /* of them those that could not be moved on to an edge */
-    dem_index n_cut;  /* corners that no node is near, so that they are cut off */
-    double farthest;  /* m, that the worst of these n_off nodes is off its edge */
-    dem_index n_open; /* of a part: triangles that are not known to be done with, as it takes more passes: what comes of
-                         the part may then be wrong */
+    dem_index n_rim;       /* nodes at the rim */
+    dem_index n_off;       /* of them those that could not be moved on to an edge */
+    dem_index n_cut;       /* corners that no node is near, so that they are cut off */
+    double farthest;       /* m, that the worst of these n_off nodes is off its edge */
+    dem_index n_unsettled; /* triangles of a part that would take more passes: what comes of it may be wrong */
 } smoothing;
 
 /* Where a lattice is rows of a shape_mesh(), what comes of nodes and triangles at heights >= `from` and < `to` is what
- * comes of them in the whole, if no part of the whole has open ones. Only of these are numbers counted. */
+ * comes of them in the whole, if no part of the whole has unsettled ones. Only of these are numbers counted. */
 typedef struct smoothing_part {
     double from, to; /* m, of places in the grid */
 } smoothing_part;

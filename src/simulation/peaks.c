@@ -143,20 +143,22 @@ dem_status peaks_load(dem_peaks *p)
     return DEM_OK;
 }
 
+static dem_status read_rows(const dem_peaks *p, const char *name, rows_here here, dem_index first, dem_index n,
+                            void *rows)
+{
+    checkpoint_row_source there = {p->from, name, 0, here.size};
+    return p->from != NULL ? checkpoint_entries_row_reader(&there, first, n, rows)
+                           : rows_reader_copy(&here, first, n, rows);
+}
+
 dem_status peaks_read_nodes(void *peaks, dem_index first, dem_index n, void *rows)
 {
     const dem_peaks *p = peaks;
-    checkpoint_row_source there = {p->from, peaks_entry_nodes, 0, sizeof *p->nodes};
-    rows_here here = {sizeof *p->nodes, p->nodes};
-    return p->from != NULL ? checkpoint_entries_row_reader(&there, first, n, rows)
-                           : rows_reader_copy(&here, first, n, rows);
+    return read_rows(p, peaks_entry_nodes, (rows_here){sizeof *p->nodes, p->nodes}, first, n, rows);
 }
 
 dem_status peaks_read_springs(void *peaks, dem_index first, dem_index n, void *rows)
 {
     const dem_peaks *p = peaks;
-    checkpoint_row_source there = {p->from, peaks_entry_springs, 0, sizeof *p->springs};
-    rows_here here = {sizeof *p->springs, p->springs};
-    return p->from != NULL ? checkpoint_entries_row_reader(&there, first, n, rows)
-                           : rows_reader_copy(&here, first, n, rows);
+    return read_rows(p, peaks_entry_springs, (rows_here){sizeof *p->springs, p->springs}, first, n, rows);
 }

@@ -349,10 +349,10 @@ static smoothing smooth_flat(double height, smoothing_part part)
 TEST(triangles_of_a_part_that_takes_too_many_passes_are_counted)
 {
     const double all = (double)INFINITY;
-    assert_int_equal(smooth_flat(1.0, (smoothing_part){-all, all}).n_open, 2 + 33);
-    assert_int_equal(smooth_flat(1.0, (smoothing_part){5.0, all}).n_open, 0);
-    assert_true(smooth_flat(9.0, (smoothing_part){-all, all}).n_open > 100);
-    assert_int_equal(smooth_flat(9.0, (smoothing_part){20.0, all}).n_open, 0);
+    assert_int_equal(smooth_flat(1.0, (smoothing_part){-all, all}).n_unsettled, 2 + 33);
+    assert_int_equal(smooth_flat(1.0, (smoothing_part){5.0, all}).n_unsettled, 0);
+    assert_true(smooth_flat(9.0, (smoothing_part){-all, all}).n_unsettled > 100);
+    assert_int_equal(smooth_flat(9.0, (smoothing_part){20.0, all}).n_unsettled, 0);
 }
 
 TEST(numbers_of_parts_add_up_to_those_of_the_whole)
