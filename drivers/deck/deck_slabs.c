@@ -228,6 +228,13 @@ static body_range part_of(dem_index n, dem_index part, dem_index n_parts)
     return (body_range){first_of(n, part, n_parts), first_of(n, part + 1, n_parts)};
 }
 
+/* Nodes of all bodies. */
+static body_range wanted(const maker *m, const slab_share *which)
+{
+    if (which->first == NULL) return part_of(count_nodes(m), which->part, which->n_parts);
+    return (body_range){which->first[which->part], which->first[which->part + 1]};
+}
+
 /* Own nodes that are held may not touch. The flags of all slabs are written out where there are any. */
 static dem_status hold(dem_slab *slab, const maker *m)
 {
@@ -242,9 +249,9 @@ static dem_status hold(dem_slab *slab, const maker *m)
 }
 
 /* By the same steps as whole bodies. */
-static dem_status make(dem_slab *out, const maker *m, dem_index part, dem_index n_parts)
+static dem_status make(dem_slab *out, const maker *m, const slab_share *which)
 {
-    const body_range all = part_of(count_nodes(m), part, n_parts);
+    const body_range all = wanted(m, which);
     dem_status status = DEM_OK;
     tally before = {0};
     *out = dem_slab_empty();
@@ -263,7 +270,7 @@ static dem_status make_each(dem_index n, const maker *m, deck_slabs_visitor *vis
     dem_status status = DEM_OK;
     for (dem_index part = 0; part < n && status == DEM_OK; part++) {
         dem_slab slab;
-        status = make(&slab, m, part, n);
+        status = make(&slab, m, &(slab_share){part, n, NULL});
         if (status == DEM_OK) status = visit(visitor, &slab);
         dem_slab_free(&slab);
     }
@@ -562,8 +569,7 @@ static dem_index **take_rows(const recipe *r)
     return rows;
 }
 
-dem_status deck_slabs_make(void *program, const void *bytes, size_t size, dem_index part, dem_index n_parts,
-                           dem_slab *out)
+dem_status deck_slabs_make(void *program, const void *bytes, size_t size, const slab_share *which, dem_slab *out)
 {
     const recipe *r = bytes;
     const char *text = text_in(r);
@@ -578,7 +584,7 @@ dem_status deck_slabs_make(void *program, const void *bytes, size_t size, dem_in
     const maker m = {&groups, "", r->bodies, held_in(r), (dem_index)r->n_held, rows, &errors};
     if (good) body_drop_unused(&groups);
     if (rows == NULL) status = DEM_ERROR_MEMORY;
-    if (status == DEM_OK) status = errors.n == 0 ? make(out, &m, part, n_parts) : DEM_ERROR_MODEL;
+    if (status == DEM_OK) status = errors.n == 0 ? make(out, &m, which) : DEM_ERROR_MODEL;
     free_rows(rows, r->n_bodies);
     schema_free(&groups);
     namelist_free(&list);

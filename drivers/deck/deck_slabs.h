@@ -4,6 +4,7 @@
 #ifndef DEM_DECK_SLABS_H
 #define DEM_DECK_SLABS_H
 
+#include "base/slab_recipe.h"
 #include "body.h"
 #include "lattice_facts.h"
 
@@ -63,7 +64,6 @@ dem_status deck_slabs_each(const deck_slabs *slabs, const body_scene *scene, dec
 void *deck_slabs_recipe(size_t *size, const deck_slabs *slabs, const char *echo);
 
 /* Makes a slab by the bytes of a recipe, as dem_private_slab_maker (base/slab_recipe.h). */
-dem_status deck_slabs_make(void *program, const void *bytes, size_t size, dem_index part, dem_index n_parts,
-                           dem_slab *out);
+dem_status deck_slabs_make(void *program, const void *bytes, size_t size, const slab_share *which, dem_slab *out);
 
 #endif

@@ -6,10 +6,18 @@
 
 #include <dem/dem.h>
 
-/** Makes the slab of a part, as dem_model_create_mpi_slab() takes it, from a recipe of `size` bytes.
- *  \param[out] out  from dem_slab_empty() */
-typedef dem_status dem_private_slab_maker(void *program, const void *recipe, size_t size, dem_index part,
-                                          dem_index n_parts, dem_slab *out);
+/** Which of n_parts slabs is wanted: of those whose rows begin at the nodes from first[part] on, before
+ *  first[part + 1]. */
+typedef struct slab_share {
+    dem_index part, n_parts;
+    const dem_index *first; /**< [n_parts + 1] from 0 to the number of nodes; NULL: as its maker shares them out */
+} slab_share;
+
+/** Makes a slab, as dem_model_create_mpi_slab() takes it, from a recipe of `size` bytes.
+ *  \param[out] out  from dem_slab_empty()
+ *  \return DEM_ERROR_MODEL, if a part has no rows; others */
+typedef dem_status dem_private_slab_maker(void *program, const void *recipe, size_t size, const slab_share *which,
+                                          dem_slab *out);
 
 /** What makes slabs on a rank. */
 typedef struct slab_maker {
@@ -24,6 +32,15 @@ typedef struct slab_recipe {
     const dem_obstacle *obstacles; /**< [n_obstacles] this library's, without functions of the program */
     dem_index n_obstacles;
     const dem_options *options; /**< for which the model is shared: dem_model_create_mpi_for() */
+    const dem_index *first;     /**< [ranks + 1] as in slab_share; or NULL */
 } slab_recipe;
+
+/** By what rank 0 has slabs made again. */
+typedef struct slab_source {
+    slab_maker maker;
+    void *recipe; /**< [size] owned */
+    size_t size;
+    double price; /**< s, which it took rank 0 to have them made */
+} slab_source;
 
 #endif

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/status.h"
 #include "domain/partition.h"
@@ -15,8 +16,10 @@ dem_status balance_create(balance *b, int n_ranks)
     b->busy = calloc((size_t)n_ranks, sizeof *b->busy);
     b->reports = calloc((size_t)n_ranks, sizeof *b->reports);
     b->requests = calloc((size_t)n_ranks, sizeof *b->requests);
-    CHECK(b->busy != NULL && b->reports != NULL && b->requests != NULL, DEM_ERROR_MEMORY, "out of memory for %d ranks",
-          n_ranks);
+    b->n_own = calloc((size_t)n_ranks, sizeof *b->n_own);
+    b->n_start = calloc((size_t)n_ranks, sizeof *b->n_start);
+    CHECK(b->busy && b->reports && b->requests && b->n_own && b->n_start, DEM_ERROR_MEMORY,
+          "out of memory for %d ranks", n_ranks);
     return DEM_OK;
 }
 
@@ -26,6 +29,8 @@ void balance_free(balance *b)
     free(b->busy);
     free(b->reports);
     free(b->requests);
+    free(b->n_own);
+    free(b->n_start);
     *b = (balance){0};
 }
 
@@ -40,20 +45,33 @@ void balance_go_on(balance *b, double price)
     b->price = price;
 }
 
-/* Messages go both ways: those of rank 0 are empty. */
-void balance_collect(balance *b, const ranks *r, double own)
+/* Messages go both ways: those of rank 0 are empty.
+ * \param all  [n_ranks] on rank 0, a number of 8 bytes of each rank */
+static void collect(balance *b, const ranks *r, void *own, void *all)
 {
+    enum { SIZE = 8 };
     if (r->rank > 0) {
-        const ranks_message report = {0, sizeof own, &own}, request = {0, 0, NULL};
+        const ranks_message report = {0, SIZE, own}, request = {0, 0, NULL};
         r->exchange(r->self, 1, &report, &request);
         return;
     }
-    b->busy[0] = own;
+    memcpy(all, own, SIZE);
     for (int k = 1; k < b->n_ranks; k++) {
-        b->reports[k - 1] = (ranks_message){k, sizeof own, &b->busy[k]};
+        b->reports[k - 1] = (ranks_message){k, SIZE, (char *)all + (ptrdiff_t)k * SIZE};
         b->requests[k - 1] = (ranks_message){k, 0, NULL};
     }
     r->exchange(r->self, b->n_ranks - 1, b->requests, b->reports);
+}
+
+void balance_collect(balance *b, const ranks *r, double own)
+{
+    collect(b, r, &own, b->busy);
+}
+
+void balance_count(balance *b, const ranks *r, dem_index own)
+{
+    collect(b, r, &own, b->n_own);
+    if (r->rank == 0 && b->n_start[0] == 0) memcpy(b->n_start, b->n_own, (size_t)b->n_ranks * sizeof *b->n_own);
 }
 
 bool balance_pays(const balance *b)
@@ -95,4 +113,66 @@ dem_status balance_weigh(balance *b, const dem_lattice *whole)
     free(owner);
     free(counts);
     return status;
+}
+
+/* ---- ranges ---- */
+
+void balance_ranges(const balance *b, dem_index *first)
+{
+    first[0] = 0;
+    for (int k = 0; k < b->n_ranks; k++) first[k + 1] = first[k] + b->n_own[k];
+}
+
+/* How many of the first nodes have been so much work, in s. */
+static dem_index count_until(const balance *b, double work)
+{
+    dem_index n = 0;
+    int k = 0;
+    for (; k < b->n_ranks - 1 && work > b->busy[k]; k++) {
+        work -= b->busy[k];
+        n += b->n_own[k];
+    }
+    const double share = b->busy[k] > 0.0 ? fmin(1.0, work / b->busy[k]) : 0.0;
+    return n + (dem_index)(share * (double)b->n_own[k]);
+}
+
+/* Of n nodes at first. */
+static dem_index least_of(dem_index n)
+{
+    return n / 4;
+}
+
+static dem_index most_of(dem_index n)
+{
+    return (5 * n + 3) / 4; /* rounded up, so that parts have no less together than all at once */
+}
+
+static dem_index larger(dem_index a, dem_index b)
+{
+    return a > b ? a : b;
+}
+
+static dem_index smaller(dem_index a, dem_index b)
+{
+    return a < b ? a : b;
+}
+
+/* What is left for the ranks behind has to be between their bounds, too. */
+void balance_cut(const balance *b, dem_index *first)
+{
+    dem_index rest = 0, all = 0;
+    double work = 0.0;
+    for (int k = 0; k < b->n_ranks; k++) {
+        rest += b->n_start[k];
+        work += b->busy[k];
+    }
+    all = rest;
+    first[0] = 0;
+    for (int k = 0; k < b->n_ranks; k++) {
+        const dem_index own = b->n_start[k], even = count_until(b, work * (k + 1) / b->n_ranks);
+        rest -= own;
+        const dem_index least = larger(first[k] + least_of(own), all - most_of(rest));
+        const dem_index most = smaller(first[k] + most_of(own), all - least_of(rest));
+        first[k + 1] = larger(least, smaller(even, most));
+    }
 }

@@ -196,3 +196,24 @@ dem_status gather_back(const ranks *r, const gather_items *items, size_t size, r
     release(&c);
     return ready == DEM_OK ? reduce_status(r, got, 0.0) : ready;
 }
+
+/* ---- from owner to owner ---- */
+
+dem_status gather_migrate(const ranks *r, const gather_items *owned, size_t size, const void *from,
+                          const gather_items *items, void *to)
+{
+    collection there = {.ranks = r, .items = owned, .size = size, .from = from}, back = there;
+    back.items = items;
+    dem_status status = allocate(&there);
+    if (status == DEM_OK) status = allocate(&back);
+    status = reduce_status(r, status, 0.0);
+    for (dem_index first = 0, n; status == DEM_OK && first < items->n_whole; first += n) {
+        n = items->n_whole - first < ROWS_CHUNK ? items->n_whole - first : ROWS_CHUNK;
+        collect_chunk(&there, first, back.buffer);
+        send_chunk(&back, (size_t)n * size);
+        take_rows(&back, first, first + n, to);
+    }
+    release(&there);
+    release(&back);
+    return status;
+}

@@ -186,6 +186,7 @@ void dem_model_destroy(dem_model *model)
     free(model->domain);
     free(model->inverse_mass);
     dem_model_destroy(model->part);
+    free(model->slabs.recipe);
     if (model->ends_ranks) model->ranks->end(model->ranks->self);
     free(model);
 }

@@ -4,6 +4,7 @@
 #define DEM_MODEL_MODEL_H
 
 #include "base/ranks.h"
+#include "base/slab_recipe.h"
 #include "domain/domain.h"
 #include "elastic/couplings.h"
 #include "elastic/layout.h"
@@ -28,6 +29,7 @@ struct dem_model {
     domain *domain;               /* of this one; NULL: all nodes are here */
     dem_model *part;              /* of a whole that has no arrays: what this rank has of it. NULL: arrays are here */
     model_array_asker *ask_array; /* likewise, for those of the whole */
+    slab_source slabs;            /* likewise: by what all ranks make them */
     touching_bodies *touching;    /* of the domain, if bodies may touch each other in it; else NULL */
     dem_lattice lattice;          /* flags, body, position and velocity always filled; */
     dem_lattice borrowed;         /* those of its arrays that are the caller's; NULL: they are of the model */

@@ -10,6 +10,7 @@
 #include "base/status.h"
 #include "domain/gather.h"
 #include "simulation/rank_call.h"
+#include "simulation/shared_checkpoint.h"
 
 static const char entry[] = "state";
 
@@ -18,19 +19,12 @@ static bool is_no_state(const char *name)
     return strcmp(name, entry) != 0;
 }
 
-/* Of the part. */
-static const double *kept_state(const led_run *l)
-{
-    size_t size;
-    return dem_checkpoint_find(l->part->checkpoint, entry, &size);
-}
-
 dem_status leader_checkpoint_answer(const led_run *l, dem_index number, rows_taker *take, void *context)
 {
     const dem_model *m = l->part->model;
     const state_layout *here = &l->part->layout;
     const gather_items nodes = gather_nodes(m->domain);
-    const double *rows = kept_state(l) + number * state_velocities(here);
+    const double *rows = shared_checkpoint_state(l->part) + number * state_velocities(here);
     return gather_chunks(m->ranks, &nodes, (size_t)here->dim * sizeof *rows, rows, take, context);
 }
 
@@ -64,7 +58,7 @@ static dem_status hand_over_rest(const led_run *l, dem_index number, behind *b)
     double *rest = calloc((size_t)state_row(of, n), sizeof *rest);
     CHECK_MEMORY(rest);
     memcpy(rest + state_row(of, n - n_quadratures),
-           kept_state(l) + number * state_velocities(here) + state_row(here, state_impulse(here, 0)),
+           shared_checkpoint_state(l->part) + number * state_velocities(here) + state_row(here, state_impulse(here, 0)),
            (size_t)state_row(of, n_quadratures) * sizeof *rest);
     const dem_status status = take_behind(b, of->n_nodes, n, rest);
     free(rest);
@@ -75,6 +69,7 @@ static dem_status visit(void *run, rows_taker *take, void *taker)
 {
     led_run *l = run;
     behind b = {take, taker, 0};
+    TRY(led_ranks_check(l));
     for (dem_index number = 0; number < 2; number++) {
         b.n_before = number * l->part->shared.whole.n_rows;
         TRY(ask(l, number, &b));

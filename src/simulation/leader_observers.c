@@ -105,7 +105,7 @@ dem_status leader_observers_look_ahead(led_run *l, const dem_checkpoint *checkpo
 static dem_status lead_checkpoint(void *context, const dem_simulation *part, dem_checkpoint *checkpoint)
 {
     led_run *l = context;
-    const bool pays = led_ranks_collect_busy(l) && !l->is_of_slabs && balance_pays(&l->balance);
+    const bool pays = led_ranks_collect_busy(l) && balance_pays(&l->balance);
     (void)part;
     (void)hold(l);
     led_ranks_pass_checkpoint(l);

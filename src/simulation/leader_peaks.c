@@ -7,6 +7,7 @@
 
 static dem_status pass(led_run *l, rank_call_kind what, int number)
 {
+    TRY(led_ranks_check(l));
     const rank_call o = rank_call_send(&l->ranks, (rank_call){.kind = what, .number = number});
     led_ranks_enter(l);
     const dem_status status = shared_peaks_answer(&l->peaks, l->part, &o);
@@ -114,4 +115,14 @@ dem_status leader_peaks_bring_all(led_run *l)
 {
     for (int k = 0; k < OBSERVERS_MOST; k++) TRY(bring(l->peaks.whole[k]));
     return DEM_OK;
+}
+
+void leader_peaks_forget_run(led_run *l)
+{
+    for (int k = 0; k < OBSERVERS_MOST; k++) {
+        dem_peaks *whole = l->peaks.whole[k];
+        if (whole == NULL) continue;
+        whole->away = NULL;
+        whole->are_away = false;
+    }
 }

@@ -31,4 +31,7 @@ void leader_peaks_forget(const dem_simulation *whole, const dem_peaks *peaks);
 /** Brings all that are away, before the parts end. */
 dem_status leader_peaks_bring_all(led_run *l);
 
+/** The run has ended: peaks that could not be brought are gone. */
+void leader_peaks_forget_run(led_run *l);
+
 #endif

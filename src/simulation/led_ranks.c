@@ -8,6 +8,12 @@ static double busy_time(const led_run *l)
     return l->ranks.busy != NULL ? l->ranks.busy(l->ranks.self) : 0.0;
 }
 
+dem_status led_ranks_check(const led_run *l)
+{
+    CHECK(l->part != NULL, DEM_ERROR_ARGUMENT, "the run has ended, as its nodes could not be shared out anew");
+    return DEM_OK;
+}
+
 void led_ranks_enter(led_run *l)
 {
     status_watch_memory(l->ranks.lacks_memory, l->ranks.program);

@@ -9,6 +9,7 @@
 #include "simulation/private.h"
 #include "simulation/shared_peaks.h"
 #include "simulation/shared_slabs.h"
+#include "simulation/slab_migration.h"
 
 /* A frame of one of the whole's observers. */
 typedef struct frame_relay {
@@ -40,8 +41,15 @@ struct led_run {
     near_contact near;          /* of its surfaces */
     bool weighs_anew;           /* nodes are about to be shared out by other weights */
     bool shares_anew;           /* the nodes, from the checkpoint that the run has just taken */
-    calls made, seen;           /* since the last checkpoint, and before it was gone back to. On all ranks */
+    bool migrates;              /* slabs are being made again, and this is kept of the last ones: */
+    slab_migration migration;
+    calls made, seen; /* since the last checkpoint, and before it was gone back to. On all ranks */
 };
+
+/** Whether there are parts to be asked: no more if they could not be made again when nodes were shared out anew, after
+ *  which nothing is known of the run.
+ *  \return DEM_ERROR_ARGUMENT */
+dem_status led_ranks_check(const led_run *l);
 
 /** From here to led_ranks_leave() all ranks work together: one that is out of memory cannot report it and go on. The
  *  time counts as work. */

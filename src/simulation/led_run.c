@@ -9,82 +9,15 @@
 #include "base/checkpoint_entries.h"
 #include "base/reduce.h"
 #include "base/status.h"
-#include "model/shared_model.h"
 #include "simulation/leader_checkpoint.h"
 #include "simulation/leader_observers.h"
 #include "simulation/leader_peaks.h"
+#include "simulation/led_parts.h"
 #include "simulation/rank_shares.h"
 #include "simulation/shared_field.h"
 #include "simulation/shared_orders.h"
 #include "simulation/shared_problem.h"
-#include "simulation/shared_use.h"
 #include "simulation/step_parts.h"
-
-/* ---- parts ---- */
-
-static void drop_model(led_run *l)
-{
-    if (l->whole == NULL || !l->is_of_slabs) dem_model_destroy(l->model);
-    l->model = NULL;
-    l->is_of_slabs = false;
-}
-
-static void drop(led_run *l)
-{
-    shared_peaks_drop(&l->peaks);
-    rank_order_forget(&l->kept);
-    dem_simulation_destroy(l->part);
-    l->part = NULL;
-    l->is_observed = false;
-    if (!l->is_of_slabs) drop_model(l);
-}
-
-/* Shares in stresses of the whole, which creating its simulation may have made, nobody reads: parts have their own. */
-static dem_status distribute(led_run *l, const dem_private_whole *about)
-{
-    const dem_model *whole = l->whole != NULL ? l->whole->model : NULL;
-    if (l->is_of_slabs) return DEM_OK;
-    if (whole != NULL) stress_forget(&whole->stress);
-    return shared_model_distribute(&l->model, whole, about, &l->ranks);
-}
-
-static dem_status create_part(led_run *l, const shared_problem *p, bool resumes, const dem_checkpoint *checkpoint)
-{
-    dem_private_whole about = {.obstacles = p->obstacles,
-                               .n_obstacles = p->n_obstacles,
-                               .weights = l->balance.weights,
-                               .is_near = near_contact_nodes(&l->near)};
-    TRY(dem_private_use_shared(&about, &p->options));
-    TRY(distribute(l, &about));
-    if (resumes)
-        TRY(dem_simulation_resume(&l->part, l->model, &p->options, checkpoint));
-    else
-        TRY(dem_simulation_create(&l->part, l->model, &p->options));
-    checkpoint_entries_free(l->part->checkpoint); /* the whole has it */
-    l->part->is_led = true;
-    l->part->whole = l->whole;
-    return DEM_OK;
-}
-
-/* Rank 0 has put the problem into the entries. */
-static dem_status create(led_run *l, dem_checkpoint *entries, bool resumes, const dem_checkpoint *checkpoint)
-{
-    shared_problem p = {0};
-    led_ranks_enter(l);
-    dem_status status = checkpoint_entries_share(&l->ranks, entries);
-    if (status == DEM_OK) status = reduce_status(&l->ranks, shared_problem_get(&p, entries), 0.0);
-    if (status == DEM_OK) status = create_part(l, &p, resumes, checkpoint);
-    led_ranks_leave(l);
-    shared_problem_free(&p);
-    if (status != DEM_OK) drop(l);
-    if (l->weighs_anew)
-        balance_begin(&l->balance, l->busy);
-    else
-        balance_go_on(&l->balance, l->busy);
-    l->weighs_anew = false;
-    l->busy = 0.0;
-    return status;
-}
 
 /* Whether an event has stopped all parts, as it concerns nodes that not all of them have. */
 static bool goes_back(led_run *l)
@@ -215,19 +148,10 @@ typedef union answer {
 static void create_follower(led_run *l, const rank_call *o)
 {
     dem_checkpoint *entries = NULL;
-    if (l->is_of_slabs && !(o->number & RANK_CALL_OF_SLABS)) drop_model(l);
+    if (l->is_of_slabs && !(o->number & RANK_CALL_OF_SLABS)) led_parts_drop_model(l);
     if (reduce_status(&l->ranks, dem_checkpoint_create(&entries), 0.0) == DEM_OK)
-        (void)create(l, entries, (o->number & RANK_CALL_RESUMED) != 0, NULL);
+        (void)led_parts_create(l, entries, (o->number & RANK_CALL_RESUMED) != 0, NULL);
     dem_checkpoint_destroy(entries);
-}
-
-/* In place of the model that there is. */
-static void make_slabs(led_run *l)
-{
-    drop_model(l);
-    if (shared_slabs_create(&l->model, &l->ranks, l->maker, NULL) != DEM_OK) return;
-    l->is_of_slabs = true;
-    if (whole_of_parts_create(NULL, l->model, NULL) != DEM_OK) drop_model(l);
 }
 
 static void take_part(led_run *l, const rank_call *o)
@@ -239,7 +163,10 @@ static void take_part(led_run *l, const rank_call *o)
         create_follower(l, o);
         break;
     case RANK_CALL_SLABS:
-        make_slabs(l);
+        led_parts_make_slab(l, o->number != RANK_CALL_SLABS_AGAIN);
+        break;
+    case RANK_CALL_MIGRATE:
+        (void)led_parts_migrate(l);
         break;
     case RANK_CALL_ARRAY:
         (void)whole_of_parts_visit(l->model, (int)o->number, NULL, NULL);
@@ -273,7 +200,7 @@ static void take_part(led_run *l, const rank_call *o)
         (void)shared_orders_pass(&l->ranks, &l->kept, NULL, 0);
         break;
     case RANK_CALL_DROP:
-        drop(l);
+        led_parts_drop(l);
         break;
     default:
         (void)rank_call_answer(l->part, o, &ignored);
@@ -352,6 +279,7 @@ void led_run_gather(dem_simulation *whole)
 dem_status led_run_order(const dem_simulation *whole, const field_order *o)
 {
     led_run *l = whole->leads;
+    TRY(led_ranks_check(l));
     const rank_call call = {
         .kind = RANK_CALL_ORDER, .number = (dem_index)o->field, .n_stripes = o->n_stripes, .size = o->size};
     (void)rank_call_send(&l->ranks, call);
@@ -384,12 +312,12 @@ static dem_status begin_parts(led_run *l, dem_checkpoint *entries, const dem_che
         TRY(leader_peaks_bring_all(l));
         TRY(checkpoint_entries_bring(l->whole->checkpoint));
         (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_DROP});
-        drop(l);
+        led_parts_drop(l);
     }
     const dem_index number = (checkpoint != NULL ? RANK_CALL_RESUMED : 0) | (l->is_of_slabs ? RANK_CALL_OF_SLABS : 0);
     (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_CREATE, .number = number});
     TRY(reduce_status(&l->ranks, DEM_OK, 0.0));
-    return create(l, entries, checkpoint != NULL, checkpoint);
+    return led_parts_create(l, entries, checkpoint != NULL, checkpoint);
 }
 
 static dem_status put_problem(led_run *l, dem_checkpoint **entries)
@@ -420,8 +348,53 @@ static dem_status weigh_anew(led_run *l)
     return status;
 }
 
+/* ---- slabs that are shared out anew ---- */
+
+static dem_status remake_slabs(led_run *l, const dem_index *first)
+{
+    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_SLABS, .number = RANK_CALL_SLABS_AGAIN});
+    led_ranks_enter(l);
+    const dem_status status = led_parts_remake_slab(l, first);
+    led_ranks_leave(l);
+    return status;
+}
+
+/* Where rows are long a rank may have none in its new range. */
+static dem_status cut_anew(led_run *l)
+{
+    dem_index *first = calloc((size_t)l->ranks.size + 1, sizeof *first);
+    CHECK_MEMORY(first);
+    balance_cut(&l->balance, first);
+    dem_status status = remake_slabs(l, first);
+    balance_ranges(&l->balance, first);
+    if (status == DEM_ERROR_MODEL) status = remake_slabs(l, first);
+    free(first);
+    return status;
+}
+
+static dem_status migrate(led_run *l)
+{
+    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_MIGRATE});
+    led_ranks_enter(l);
+    const dem_status status = led_parts_migrate(l);
+    led_ranks_leave(l);
+    return status;
+}
+
+static dem_status share_slabs_anew(led_run *l)
+{
+    l->shares_anew = false;
+    l->busy = 0.0; /* from here on it is what this takes */
+    TRY(migrate(l));
+    TRY(cut_anew(l));
+    return begin(l, l->whole->checkpoint);
+}
+
+/* ---- beginning, and going on ---- */
+
 static dem_status share_anew(led_run *l)
 {
+    if (l->is_of_slabs) return share_slabs_anew(l);
     near_contact_take(&l->near, l->busy, l->balance.price);
     l->shares_anew = false;
     l->busy = 0.0; /* from here on it is what this takes */
@@ -450,6 +423,7 @@ static dem_status advance_parts(led_run *l, double t_end)
 dem_status led_run_advance(dem_simulation *whole, double t_end)
 {
     led_run *l = whole->leads;
+    TRY(led_ranks_check(l));
     if (!l->is_of_slabs) model_rows_give_up(whole->model);
     for (;;) {
         if (!l->is_observed) TRY(attach(l));
@@ -486,11 +460,10 @@ static dem_status lead(led_run *l, const dem_checkpoint *checkpoint)
 void led_run_destroy(led_run *l)
 {
     if (l == NULL) return;
-    (void)leader_peaks_bring_all(l);
-    for (int k = 0; k < OBSERVERS_MOST; k++)
-        if (l->peaks.whole[k] != NULL) l->peaks.whole[k]->away = NULL;
+    if (l->part != NULL) (void)leader_peaks_bring_all(l);
+    leader_peaks_forget_run(l);
     (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_DROP});
-    drop(l);
+    led_parts_drop(l);
     free_run(l);
 }
 
@@ -504,7 +477,8 @@ dem_status dem_private_lead(dem_simulation *whole, const ranks *r, const dem_opt
                    .options = options,
                    .weighs_anew = true,
                    .model = whole->model->part,
-                   .is_of_slabs = whole->model->part != NULL};
+                   .is_of_slabs = whole->model->part != NULL,
+                   .busy = whole->model->slabs.price};
     l->ranks.end = NULL;
     led_ranks_pass_checkpoint(l);
     step_parts_destroy(whole); /* before there is memory for parts */
@@ -533,13 +507,40 @@ static dem_status ask_array(const dem_model *whole, int array, rows_taker *take,
     return whole_of_parts_visit(whole->part, array, take, context);
 }
 
+static double busy_time(const ranks *r)
+{
+    return r->busy != NULL ? r->busy(r->self) : 0.0;
+}
+
+/* For slabs that are made again. */
+static dem_status keep_recipe(dem_model *whole, const slab_maker *maker, const slab_recipe *recipe)
+{
+    slab_source *s = &whole->slabs;
+    s->maker = *maker;
+    s->size = recipe->size;
+    s->recipe = malloc(recipe->size + 1);
+    CHECK_MEMORY(s->recipe);
+    memcpy(s->recipe, recipe->bytes, recipe->size);
+    return DEM_OK;
+}
+
 dem_status dem_private_lead_slabs(dem_model **out, const ranks *r, const slab_maker *maker, const slab_recipe *recipe)
 {
-    dem_model *part = NULL;
+    dem_model *part = NULL, *whole = NULL;
+    const double begun = busy_time(r);
     (void)rank_call_send(r, (rank_call){.kind = RANK_CALL_SLABS});
     TRY(shared_slabs_create(&part, r, maker, recipe));
-    const dem_status status = whole_of_parts_create(out, part, ask_array);
-    if (status != DEM_OK) dem_model_destroy(part);
+    dem_status status = whole_of_parts_create(&whole, part, ask_array);
+    if (status != DEM_OK) {
+        dem_model_destroy(part);
+        return status;
+    }
+    whole->slabs.price = busy_time(r) - begun;
+    status = keep_recipe(whole, maker, recipe);
+    if (status == DEM_OK)
+        *out = whole;
+    else
+        dem_model_destroy(whole);
     return status;
 }
 
@@ -549,8 +550,8 @@ dem_index dem_private_follow(const ranks *r, const slab_maker *maker)
     l.ranks.end = NULL;
     led_ranks_pass_checkpoint(&l);
     const rank_call last = serve(&l);
-    drop(&l);
-    drop_model(&l);
+    led_parts_drop(&l);
+    led_parts_drop_model(&l);
     return last.number;
 }
 

@@ -21,6 +21,7 @@
 #include "model/fragments.h"
 #include "model/node_stress.h"
 #include "simulation/body_contact.h"
+#include "simulation/led_ranks.h"
 #include "simulation/led_run.h"
 #include "simulation/shared_breaks.h"
 #include "simulation/shared_field.h"
@@ -143,7 +144,8 @@ static bool poses_are_known(const dem_simulation *s)
 static const dem_contact *contacts_of(const dem_simulation *s, dem_index *n)
 {
     const run_measures *m = s->measures;
-    if (s->leads != NULL) return contacts_of(led_run_part(s->leads), n);
+    *n = 0;
+    if (s->leads != NULL) return led_ranks_check(s->leads) == DEM_OK ? contacts_of(led_run_part(s->leads), n) : NULL;
     if (!m->has_contacts && poses_are_known(s)) list_contacts(s);
     *n = m->n_contacts;
     return m->contacts;
@@ -158,10 +160,17 @@ static dem_status check_pointers(const char *function, const dem_simulation *s, 
     return DEM_OK;
 }
 
+/* What ranks have of a run that is led is asked of them. */
+static dem_status check_asked(const char *function, const dem_simulation *s, const void *out)
+{
+    TRY(check_pointers(function, s, out));
+    return s->leads != NULL ? led_ranks_check(s->leads) : DEM_OK;
+}
+
 /* What is found by a search of all bodies. */
 static dem_status check_whole(const char *function, const dem_simulation *s, const void *out)
 {
-    TRY(check_pointers(function, s, out));
+    TRY(check_asked(function, s, out));
     CHECK(s->model->domain == NULL, DEM_ERROR_ARGUMENT, "%s: not known yet of a model that ranks share", function);
     return DEM_OK;
 }
@@ -172,7 +181,7 @@ static dem_status check_whole(const char *function, const dem_simulation *s, con
 
 dem_status dem_simulation_state(const dem_simulation *s, dem_state *out)
 {
-    TRY(check_pointers("dem_simulation_state", s, out));
+    TRY(check_asked("dem_simulation_state", s, out));
     dem_index n_contacts;
     (void)contacts_of(s, &n_contacts);
     const dem_state seen = {.t = s->seen_t,
@@ -240,7 +249,7 @@ static dem_energy energy_of(const dem_simulation *s)
 
 dem_status dem_simulation_energy(const dem_simulation *s, dem_energy *out)
 {
-    TRY(check_pointers("dem_simulation_energy", s, out));
+    TRY(check_asked("dem_simulation_energy", s, out));
     if (s->leads != NULL) return led_run_ask(s, RANK_CALL_ENERGY, 0, out);
     const dem_energy seen = energy_of(s);
     return GIVE(dem_energy, out, &seen);
@@ -248,14 +257,14 @@ dem_status dem_simulation_energy(const dem_simulation *s, dem_energy *out)
 
 dem_status dem_simulation_strain(const dem_simulation *s, dem_strain *out)
 {
-    TRY(check_pointers("dem_simulation_strain", s, out));
+    TRY(check_asked("dem_simulation_strain", s, out));
     if (s->leads != NULL) return led_run_ask(s, RANK_CALL_STRAIN, 0, out);
     return GIVE(dem_strain, out, &survey_of(s)->strain);
 }
 
 dem_status dem_simulation_contact(const dem_simulation *s, dem_index contact, dem_contact *out)
 {
-    TRY(check_pointers("dem_simulation_contact", s, out));
+    TRY(check_asked("dem_simulation_contact", s, out));
     dem_index n;
     const dem_contact *contacts = contacts_of(s, &n);
     TRY(status_check_number("contact", contact, n));
@@ -285,7 +294,7 @@ static dem_status find_elements(const dem_simulation *s, const element_state **o
 dem_status dem_simulation_strains(const dem_simulation *s, double *strain)
 {
     const element_state *elements;
-    TRY(check_pointers("dem_simulation_strains", s, strain));
+    TRY(check_asked("dem_simulation_strains", s, strain));
     if (s->leads != NULL) return ask_field(s, FIELD_STRAINS, strain);
     TRY(find_elements(s, &elements));
     const double *x = all_seen_of(s);
@@ -299,7 +308,7 @@ dem_status dem_simulation_strains(const dem_simulation *s, double *strain)
 dem_status dem_simulation_forces(const dem_simulation *s, double *force)
 {
     const element_state *elements;
-    TRY(check_pointers("dem_simulation_forces", s, force));
+    TRY(check_asked("dem_simulation_forces", s, force));
     if (s->leads != NULL) return ask_field(s, FIELD_FORCES, force);
     TRY(find_elements(s, &elements));
     const double *x = all_seen_of(s);
@@ -320,7 +329,7 @@ static double force_of(const dem_simulation *s, dem_index spring, const double *
 
 dem_status dem_simulation_force_at(const dem_simulation *s, dem_index spring, double *out)
 {
-    TRY(check_pointers("dem_simulation_force_at", s, out));
+    TRY(check_asked("dem_simulation_force_at", s, out));
     if (s->leads != NULL) return led_run_ask(s, RANK_CALL_FORCE_AT, spring, out);
     const dem_lattice *l = &s->model->lattice;
     const domain *d = s->model->domain;
@@ -337,7 +346,7 @@ dem_status dem_simulation_force_at(const dem_simulation *s, dem_index spring, do
 dem_status dem_simulation_broken(const dem_simulation *s, unsigned char *triangle, unsigned char *spring)
 {
     const element_state *elements;
-    TRY(check_pointers("dem_simulation_broken", s, s));
+    TRY(check_asked("dem_simulation_broken", s, s));
     TRY(find_elements(s, &elements));
     const dem_lattice *l = &s->model->lattice;
     for (dem_index k = 0; k < l->n_triangles && triangle != NULL; k++)
@@ -350,7 +359,7 @@ dem_status dem_simulation_broken(const dem_simulation *s, unsigned char *triangl
 dem_status dem_simulation_damage(const dem_simulation *s, double *triangle, double *node)
 {
     const element_state *elements;
-    TRY(check_pointers("dem_simulation_damage", s, s));
+    TRY(check_asked("dem_simulation_damage", s, s));
     TRY(find_elements(s, &elements));
     const dem_lattice *l = &s->model->lattice;
     for (dem_index t = 0; t < l->n_triangles && triangle != NULL; t++) triangle[t] = element_state_damage(elements, t);
@@ -408,7 +417,7 @@ static dem_status prepare_stress(const dem_simulation *s)
 dem_status dem_simulation_stress(const dem_simulation *s, double *stress)
 {
     const element_state *elements;
-    TRY(check_pointers("dem_simulation_stress", s, stress));
+    TRY(check_asked("dem_simulation_stress", s, stress));
     if (s->leads != NULL) return ask_field(s, FIELD_STRESS, stress);
     TRY(find_elements(s, &elements));
     TRY(prepare_stress(s));
@@ -420,7 +429,7 @@ dem_status dem_simulation_stress(const dem_simulation *s, double *stress)
 
 dem_status dem_simulation_stress_at(const dem_simulation *s, dem_index node, double *stress)
 {
-    TRY(check_pointers("dem_simulation_stress_at", s, stress));
+    TRY(check_asked("dem_simulation_stress_at", s, stress));
     if (s->leads != NULL) return led_run_ask(s, RANK_CALL_STRESS_AT, node, stress);
     const domain *d = s->model->domain;
     double own[3] = {0};
@@ -437,7 +446,7 @@ dem_status dem_simulation_stress_at(const dem_simulation *s, dem_index node, dou
 
 dem_status dem_simulation_overlap(const dem_simulation *s, dem_overlap *out)
 {
-    TRY(check_pointers("dem_simulation_overlap", s, out));
+    TRY(check_asked("dem_simulation_overlap", s, out));
     if (s->leads != NULL) return dem_simulation_overlap(led_run_part(s->leads), out);
     return GIVE(dem_overlap, out, &s->overlap.found);
 }
@@ -452,7 +461,7 @@ const dem_surfaces *query_surfaces(const dem_simulation *s)
 
 dem_status dem_simulation_surfaces(const dem_simulation *s, dem_surfaces *out)
 {
-    TRY(check_pointers("dem_simulation_surfaces", s, out));
+    TRY(check_asked("dem_simulation_surfaces", s, out));
     if (s->leads != NULL) return dem_simulation_surfaces(led_run_part(s->leads), out);
     return GIVE(dem_surfaces, out, query_surfaces(s));
 }
@@ -460,7 +469,7 @@ dem_status dem_simulation_surfaces(const dem_simulation *s, dem_surfaces *out)
 /* They are listed when the first of them is asked for. */
 dem_status dem_simulation_pair(const dem_simulation *s, dem_index pair, dem_pair *out)
 {
-    TRY(check_pointers("dem_simulation_pair", s, out));
+    TRY(check_asked("dem_simulation_pair", s, out));
     if (s->leads != NULL) return dem_simulation_pair(led_run_part(s->leads), pair, out);
     const double *x = seen_of(s);
     if (!s->measures->has_pairs) TRY(body_contact_list((dem_simulation *)s, x));
@@ -472,7 +481,7 @@ dem_status dem_simulation_pair(const dem_simulation *s, dem_index pair, dem_pair
 
 dem_status dem_simulation_contact_forces(const dem_simulation *s, double *force)
 {
-    TRY(check_pointers("dem_simulation_contact_forces", s, force));
+    TRY(check_asked("dem_simulation_contact_forces", s, force));
     if (s->leads != NULL) return led_run_spread(s, dem_simulation_contact_forces, s->layout.dim, force);
     memset(force, 0, (size_t)(s->layout.dim * s->model->lattice.n_nodes) * sizeof *force);
     if (s->surfaces != NULL) surface_load_forces(s->surfaces, seen_of(s), force);
@@ -481,7 +490,7 @@ dem_status dem_simulation_contact_forces(const dem_simulation *s, double *force)
 
 dem_status dem_simulation_contact_pressures(const dem_simulation *s, double *pressure)
 {
-    TRY(check_pointers("dem_simulation_contact_pressures", s, pressure));
+    TRY(check_asked("dem_simulation_contact_pressures", s, pressure));
     if (s->leads != NULL) return led_run_spread(s, dem_simulation_contact_pressures, 1, pressure);
     memset(pressure, 0, (size_t)s->model->lattice.n_nodes * sizeof *pressure);
     return s->surfaces != NULL ? surface_load_pressures(s->surfaces, seen_of(s), pressure) : DEM_OK;
@@ -489,7 +498,7 @@ dem_status dem_simulation_contact_pressures(const dem_simulation *s, double *pre
 
 dem_status dem_simulation_counts(const dem_simulation *s, dem_counts *out)
 {
-    TRY(check_pointers("dem_simulation_counts", s, out));
+    TRY(check_asked("dem_simulation_counts", s, out));
     if (s->leads != NULL) return led_run_ask(s, RANK_CALL_COUNTS, 0, out);
     const dem_counts of_integrator = integrator_counts(&s->integrator);
     dem_counts counts = contact_of(s)->set.ledger.counts;
@@ -513,7 +522,7 @@ static void measure_bodies(const dem_simulation *s)
 
 dem_status dem_simulation_body(const dem_simulation *s, dem_index body, dem_body_motion *out)
 {
-    TRY(check_pointers("dem_simulation_body", s, out));
+    TRY(check_asked("dem_simulation_body", s, out));
     if (s->leads != NULL) return led_run_ask(s, RANK_CALL_BODY, body, out);
     TRY(status_check_number("body", body, s->model->n_bodies));
     if (!s->measures->has_bodies) measure_bodies(s);
@@ -522,7 +531,7 @@ dem_status dem_simulation_body(const dem_simulation *s, dem_index body, dem_body
 
 dem_status dem_simulation_inertia(const dem_simulation *s, dem_index body, double *inertia)
 {
-    TRY(check_pointers("dem_simulation_inertia", s, inertia));
+    TRY(check_asked("dem_simulation_inertia", s, inertia));
     if (s->leads != NULL) return led_run_ask(s, RANK_CALL_INERTIA, body, inertia);
     TRY(status_check_number("body", body, s->model->n_bodies));
     if (!s->measures->has_bodies) measure_bodies(s);
@@ -550,7 +559,7 @@ static void add_motion(const dem_simulation *s, dem_index obstacle, dem_obstacle
 
 dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, dem_obstacle_load *out)
 {
-    TRY(check_pointers("dem_simulation_obstacle", s, out));
+    TRY(check_asked("dem_simulation_obstacle", s, out));
     if (s->leads != NULL) return dem_simulation_obstacle(led_run_part(s->leads), obstacle, out);
     TRY(status_check_number("obstacle", obstacle, s->model->obstacles.n));
     const contact_ledger *ledger = &contact_of(s)->set.ledger;
@@ -571,7 +580,7 @@ dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, 
 
 dem_status dem_simulation_boundary(const dem_simulation *s, dem_index k, dem_boundary_load *out)
 {
-    TRY(check_pointers("dem_simulation_boundary", s, out));
+    TRY(check_asked("dem_simulation_boundary", s, out));
     if (s->leads != NULL) return led_run_ask(s, RANK_CALL_BOUNDARY, k, out);
     TRY(status_check_number("boundary", k, s->boundaries.n));
     const boundary_condition *b = &s->boundaries.list[k];
@@ -584,7 +593,7 @@ dem_status dem_simulation_boundary(const dem_simulation *s, dem_index k, dem_bou
 
 double dem_simulation_fastest(const dem_simulation *s)
 {
-    if (check_pointers("dem_simulation_fastest", s, s) != DEM_OK) return (double)NAN;
+    if (check_asked("dem_simulation_fastest", s, s) != DEM_OK) return (double)NAN;
     double of_parts = 0.0;
     if (s->leads != NULL) return led_run_ask(s, RANK_CALL_FASTEST, 0, &of_parts) == DEM_OK ? of_parts : (double)NAN;
     return diagnostics_fastest(s->model, seen_of(s) + state_velocities(&s->layout));
@@ -614,7 +623,7 @@ double query_residual(const dem_simulation *s)
 
 double dem_simulation_residual(const dem_simulation *s)
 {
-    if (check_pointers("dem_simulation_residual", s, s) != DEM_OK) return (double)NAN;
+    if (check_asked("dem_simulation_residual", s, s) != DEM_OK) return (double)NAN;
     double of_parts = 0.0;
     if (s->leads != NULL) return led_run_ask(s, RANK_CALL_RESIDUAL, 0, &of_parts) == DEM_OK ? of_parts : (double)NAN;
     if (s->seen != s->y || !is_residual_known(s)) return (double)INFINITY;
@@ -623,7 +632,7 @@ double dem_simulation_residual(const dem_simulation *s)
 
 double dem_simulation_ramp_time(const dem_simulation *s)
 {
-    if (check_pointers("dem_simulation_ramp_time", s, s) != DEM_OK) return (double)NAN;
+    if (check_asked("dem_simulation_ramp_time", s, s) != DEM_OK) return (double)NAN;
     const dem_simulation *part = s->leads != NULL ? led_run_part(s->leads) : s;
     return load_clock_time(&part->boundaries.clock, s->seen_t);
 }
@@ -641,6 +650,6 @@ const dem_model *dem_simulation_model(const dem_simulation *s)
 
 dem_status dem_simulation_options(const dem_simulation *s, dem_options *out)
 {
-    TRY(check_pointers("dem_simulation_options", s, out));
+    TRY(check_asked("dem_simulation_options", s, out));
     return GIVE(dem_options, out, &s->options);
 }

@@ -10,7 +10,8 @@
 
 typedef enum rank_call_kind {
     RANK_CALL_GO_ON,   /* from an observer, with a status as `number` */
-    RANK_CALL_SLABS,   /* a model of slabs that ranks make (simulation/shared_slabs.h) */
+    RANK_CALL_SLABS,   /* a model of slabs that ranks make (simulation/shared_slabs.h), or the same again, */
+    RANK_CALL_MIGRATE, /* after they have kept what is to go to others (simulation/slab_migration.h) */
     RANK_CALL_CREATE,  /* a simulation, as the number says */
     RANK_CALL_OBSERVE, /* it, with frames at these intervals, and what the number says */
     RANK_CALL_ADVANCE, /* to t */
@@ -44,6 +45,9 @@ typedef enum rank_call_kind {
 
 /* Bits: whether a simulation goes on from a checkpoint, and whether it is of the model of slabs that there is. */
 enum { RANK_CALL_RESUMED = 1, RANK_CALL_OF_SLABS = 2 };
+
+/* Whether rank 0 has a model of the whole already. */
+enum { RANK_CALL_SLABS_AGAIN = 1 };
 
 /* Bits: what observers want beside steps and frames. */
 enum { RANK_CALL_WITH_EVENTS = 1, RANK_CALL_WITH_BREAKS = 2, RANK_CALL_WITH_TOUCHING = 4 };

@@ -210,32 +210,41 @@ static dem_status set_up_leader(dem_simulation *s)
     return DEM_OK;
 }
 
-/* Of a model that ranks share rank 0 has the checkpoint. */
-static dem_status restore_part(dem_simulation *s, const dem_checkpoint *whole)
+/* What a simulation goes on from. */
+typedef struct start {
+    const dem_checkpoint *checkpoint; /* of the whole; NULL: another rank has it, */
+    slab_migration *kept;             /* and ranks the state, if they share out nodes anew; or NULL */
+} start;
+
+/* Of a model that ranks share rank 0 has the checkpoint. What is of a part becomes its last checkpoint where nobody has
+ * that of the whole. */
+static dem_status restore_part(dem_simulation *s, const start *from)
 {
     dem_checkpoint *part = NULL;
     TRY(dem_checkpoint_create(&part));
-    dem_status status = shared_checkpoint_scatter(s, whole, part);
+    dem_status status = shared_checkpoint_scatter(s, from->checkpoint, from->kept, part);
     if (status == DEM_OK) status = checkpoint_restore(s, part);
+    if (status == DEM_OK && from->kept != NULL) status = checkpoint_entries_move(s->checkpoint, part, NULL);
     dem_checkpoint_destroy(part);
     return status;
 }
 
 /* Goes on from a checkpoint: contacts have been taken up before, and no checkpoint is due at once, as the run has just
  * begun from one. The state is shown, which may ask the user's force. */
-static dem_status resume(dem_simulation *s, const dem_checkpoint *checkpoint)
+static dem_status resume(dem_simulation *s, const start *from)
 {
     if (s->model->domain == NULL)
-        TRY(checkpoint_restore(s, checkpoint));
+        TRY(checkpoint_restore(s, from->checkpoint));
     else
-        TRY(restore_part(s, checkpoint));
+        TRY(restore_part(s, from));
     query_at(s, s->t, s->y);
     const dem_status status = query_ask(s);
     if (run_force_failed(s)) return run_force_failure(s);
     TRY(status);
     TRY(likeness_check_force(s));
     s->started = s->has_checkpoint = true;
-    return checkpoint != NULL ? checkpoint_entries_copy(s->checkpoint, checkpoint) : DEM_OK;
+    const bool has_whole = from->checkpoint != NULL && from->kept == NULL;
+    return has_whole ? checkpoint_entries_copy(s->checkpoint, from->checkpoint) : DEM_OK;
 }
 
 /* Parts check what they go on from. */
@@ -245,8 +254,8 @@ static dem_status resume_leader(dem_simulation *s, const dem_checkpoint *checkpo
     return checkpoint_entries_copy(s->checkpoint, checkpoint);
 }
 
-static dem_status create(dem_simulation **out, const dem_model *model, const dem_options *options, bool resumes,
-                         const dem_checkpoint *checkpoint)
+/* \param from  NULL: it begins at rest positions */
+static dem_status create(dem_simulation **out, const dem_model *model, const dem_options *options, const start *from)
 {
     CHECK(out != NULL && model != NULL && options != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_create: %s is NULL",
           out == NULL ? "out" : (model == NULL ? "model" : "options"));
@@ -262,7 +271,7 @@ static dem_status create(dem_simulation **out, const dem_model *model, const dem
                                 model->obstacles.bounds.speed > 0.0);
     const bool leads = model->part != NULL;
     dem_status status = reduce_status(s->model->ranks, leads ? set_up_leader(s) : set_up(s), 0.0);
-    if (status == DEM_OK && resumes) status = leads ? resume_leader(s, checkpoint) : resume(s, checkpoint);
+    if (status == DEM_OK && from != NULL) status = leads ? resume_leader(s, from->checkpoint) : resume(s, from);
     freed_memory_return(model->lattice.n_nodes);
     if (status == DEM_OK)
         *out = s;
@@ -273,7 +282,7 @@ static dem_status create(dem_simulation **out, const dem_model *model, const dem
 
 dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, const dem_options *options)
 {
-    return create(out, model, options, false, NULL);
+    return create(out, model, options, NULL);
 }
 
 dem_status dem_simulation_resume(dem_simulation **out, const dem_model *model, const dem_options *options,
@@ -281,7 +290,13 @@ dem_status dem_simulation_resume(dem_simulation **out, const dem_model *model, c
 {
     const bool is_elsewhere = model != NULL && model->ranks->rank > 0;
     CHECK(checkpoint != NULL || is_elsewhere, DEM_ERROR_ARGUMENT, "dem_simulation_resume: checkpoint is NULL");
-    return create(out, model, options, true, is_elsewhere ? NULL : checkpoint);
+    return create(out, model, options, &(start){.checkpoint = is_elsewhere ? NULL : checkpoint});
+}
+
+dem_status slab_migration_resume(dem_simulation **out, const dem_model *part, const dem_options *options,
+                                 const dem_checkpoint *checkpoint, slab_migration *kept)
+{
+    return create(out, part, options, &(start){checkpoint, kept});
 }
 
 void dem_simulation_destroy(dem_simulation *s)

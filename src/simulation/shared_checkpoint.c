@@ -47,6 +47,12 @@ dem_status shared_checkpoint_gather(const dem_simulation *s, dem_checkpoint *che
     return reduce_status(r, r->rank == 0 ? shared_breaks_expand(s, checkpoint) : DEM_OK, 0.0);
 }
 
+const double *shared_checkpoint_state(const dem_simulation *part)
+{
+    size_t size;
+    return dem_checkpoint_find(part->checkpoint, entry, &size);
+}
+
 /* ---- the other way round ---- */
 
 /* Names with a point are those of observers, which rank 0 alone has. Rows of nodes go to those who have these. */
@@ -71,40 +77,43 @@ static dem_status read_quadratures(const state_layout *of, const dem_checkpoint 
     return checkpoint_entries_read(whole, entry, (size_t)from * sizeof *y, (size_t)n * sizeof *y, y + to);
 }
 
-/* On rank 0 what all ranks get: entries, and the quadratures. */
-static dem_status choose(const state_layout *of, const dem_checkpoint *whole, dem_checkpoint *part)
+/* On rank 0 what all ranks get: entries, and the quadratures, unless they have them. */
+static dem_status choose(const state_layout *of, const dem_checkpoint *whole, bool has_state, dem_checkpoint *part)
 {
     const state_layout none = without_nodes(of);
     double *y;
     TRY(checkpoint_entries_check(whole, entry, (size_t)state_size(of) * sizeof *y));
     TRY(checkpoint_entries_choose(part, whole, is_for_all));
+    if (has_state) return DEM_OK;
     TRY(make_state(part, quadratures, &none, &y));
     for (int number = 0; number < 2; number++) TRY(read_quadratures(of, whole, &none, number, y));
     return DEM_OK;
 }
 
 /* The rows of all nodes here. */
-static dem_status spread_state(const dem_simulation *s, const dem_checkpoint *whole, dem_checkpoint *part)
+static dem_status spread_state(const dem_simulation *s, const dem_checkpoint *whole, const dem_checkpoint *part,
+                               double *y)
 {
     const ranks *r = s->model->ranks;
     const state_layout *of = &s->shared.whole, none = without_nodes(of);
     const gather_items nodes = gather_nodes(s->model->domain);
     const size_t row = (size_t)of->dim * sizeof(double);
     size_t size;
-    double *y = NULL;
     checkpoint_row_source x = {whole, entry, 0, row}, v = {whole, entry, (size_t)of->n_rows * row, row};
-    TRY(reduce_status(r, make_state(part, entry, &s->layout, &y), 0.0));
     TRY(gather_back(r, &nodes, row, checkpoint_entries_row_reader, &x, y));
     TRY(gather_back(r, &nodes, row, checkpoint_entries_row_reader, &v, y + state_velocities(&s->layout)));
     state_copy_quadratures(y, &s->layout, dem_checkpoint_find(part, quadratures, &size), &none);
     return DEM_OK;
 }
 
-dem_status shared_checkpoint_scatter(const dem_simulation *s, const dem_checkpoint *whole, dem_checkpoint *part)
+dem_status shared_checkpoint_scatter(const dem_simulation *s, const dem_checkpoint *whole, slab_migration *kept,
+                                     dem_checkpoint *part)
 {
     const ranks *r = s->model->ranks;
-    TRY(reduce_status(r, r->rank == 0 ? choose(&s->shared.whole, whole, part) : DEM_OK, 0.0));
+    double *y = NULL;
+    TRY(reduce_status(r, r->rank == 0 ? choose(&s->shared.whole, whole, kept != NULL, part) : DEM_OK, 0.0));
     TRY(checkpoint_entries_share(r, part));
-    TRY(spread_state(s, whole, part));
+    TRY(reduce_status(r, make_state(part, entry, &s->layout, &y), 0.0));
+    TRY(kept != NULL ? slab_migration_end_state(kept, s, y) : spread_state(s, whole, part, y));
     return reduce_status(r, shared_breaks_cut(s, part), 0.0);
 }

@@ -51,17 +51,44 @@ static dem_status keep(dem_peaks *kept, const dem_peaks *part)
     return copy((void **)&kept->springs, part->springs, (size_t)part->n_springs * sizeof *part->springs);
 }
 
+static void drop_part(dem_peaks **own)
+{
+    dem_peaks_destroy(*own);
+    *own = NULL;
+}
+
+/* Without any yet. */
+static dem_status renew(dem_peaks **own, const dem_model *m)
+{
+    drop_part(own);
+    return reduce_status(m->ranks, dem_peaks_create(own, m, 1), 0.0);
+}
+
 /* All ranks have peaks afterwards, or none. */
 static dem_status begin(shared_peaks *s, const dem_model *m, int k)
 {
     dem_peaks **own = &s->part[k];
-    dem_peaks_destroy(*own);
-    *own = NULL;
-    dem_status status = reduce_status(m->ranks, dem_peaks_create(own, m, 1), 0.0);
+    dem_status status = renew(own, m);
     if (status == DEM_OK) status = take(m, s->whole[k], *own);
-    if (status == DEM_OK) return DEM_OK;
-    dem_peaks_destroy(*own);
-    *own = NULL;
+    if (status != DEM_OK) drop_part(own);
+    return status;
+}
+
+static dem_status take_over(const dem_model *m, migrating_rows *of_nodes, migrating_rows *of_springs, dem_peaks *part)
+{
+    const gather_items here = gather_nodes(m->domain), springs_here = gather_springs(m->domain, &m->lattice);
+    TRY(migration_end(of_nodes, m->ranks, &here, part->nodes));
+    return migration_end(of_springs, m->ranks, &springs_here, part->springs);
+}
+
+dem_status shared_peaks_migrate(shared_peaks *s, const dem_model *m, int k, migrating_rows *of_nodes,
+                                migrating_rows *of_springs)
+{
+    dem_peaks **own = &s->part[k];
+    dem_status status = renew(own, m);
+    if (status == DEM_OK) status = take_over(m, of_nodes, of_springs, *own);
+    if (status == DEM_OK) status = reduce_status(m->ranks, keep(&s->kept[k], *own), 0.0);
+    if (status != DEM_OK) drop_part(own);
     return status;
 }
 

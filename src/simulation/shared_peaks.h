@@ -5,6 +5,7 @@
 #define DEM_SIMULATION_SHARED_PEAKS_H
 
 #include "base/rows_taker.h"
+#include "domain/migration.h"
 #include "simulation/peaks.h"
 #include "simulation/rank_call.h"
 
@@ -22,6 +23,11 @@ int shared_peaks_number(const shared_peaks *s, const dem_peaks *whole);
 
 /** Answers one of the calls RANK_CALL_PEAKS_... Collective.  \return DEM_ERROR_MEMORY, on all ranks */
 dem_status shared_peaks_answer(shared_peaks *s, const dem_simulation *part, const rank_call *what);
+
+/** Takes peaks number k of a new part over from those that the ranks had before, and keeps them as entries of the last
+ *  checkpoint. Collective.  \return DEM_ERROR_MEMORY, on all ranks; then there are none */
+dem_status shared_peaks_migrate(shared_peaks *s, const dem_model *m, int k, migrating_rows *of_nodes,
+                                migrating_rows *of_springs);
 
 /** Frees those of the part. */
 void shared_peaks_drop(shared_peaks *s);

@@ -8,21 +8,24 @@
 #include "simulation/shared_problem.h"
 #include "simulation/shared_use.h"
 
-static const char entry[] = "recipe";
+static const char entry[] = "recipe", shares[] = "shares";
 
-static dem_status put(dem_checkpoint *into, const slab_recipe *recipe)
+static dem_status put(dem_checkpoint *into, const slab_recipe *recipe, int n_ranks)
 {
     if (recipe == NULL) return DEM_OK;
     TRY(dem_checkpoint_put(into, entry, recipe->bytes, recipe->size));
+    if (recipe->first != NULL)
+        TRY(dem_checkpoint_put(into, shares, recipe->first, ((size_t)n_ranks + 1) * sizeof *recipe->first));
     return shared_problem_put(into, recipe->obstacles, recipe->n_obstacles, recipe->options);
 }
 
 static dem_status make(dem_slab *out, const slab_maker *maker, const dem_checkpoint *entries, const ranks *r)
 {
-    size_t size;
+    size_t size, size_of_first;
     const void *recipe = dem_checkpoint_find(entries, entry, &size);
+    const slab_share which = {r->rank, r->size, dem_checkpoint_find(entries, shares, &size_of_first)};
     CHECK(maker->make != NULL, DEM_ERROR_ARGUMENT, "rank %d makes no slabs", r->rank);
-    return maker->make(maker->program, recipe, size, r->rank, r->size, out);
+    return maker->make(maker->program, recipe, size, &which, out);
 }
 
 /* dem_private_share_model() reports what fails on one rank. */
@@ -45,7 +48,7 @@ dem_status shared_slabs_create(dem_model **part, const ranks *r, const slab_make
 {
     dem_checkpoint *entries = NULL;
     dem_status status = dem_checkpoint_create(&entries);
-    if (status == DEM_OK) status = put(entries, recipe);
+    if (status == DEM_OK) status = put(entries, recipe, r->size);
     status = reduce_status(r, status, 0.0);
     if (status == DEM_OK) status = checkpoint_entries_share(r, entries);
     if (status == DEM_OK) status = share(part, r, maker, entries);

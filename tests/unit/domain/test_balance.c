@@ -63,6 +63,7 @@ TEST(nodes_weigh_what_they_cost_the_rank_that_has_them)
 static void collect(const ranks *r, void *context)
 {
     balance_collect((balance *)context + r->rank, r, 1.5 + r->rank);
+    for (int turn = 0; turn < 2; turn++) balance_count((balance *)context + r->rank, r, 10 * (r->rank + 1) + turn);
 }
 
 TEST(rank_0_learns_how_long_each_has_worked)
@@ -72,7 +73,48 @@ TEST(rank_0_learns_how_long_each_has_worked)
     assert_ok(balance_create(&all[0], 4));
     rank_threads_run(4, collect, all);
     assert_memory_equal(all[0].busy, expected, sizeof expected);
+    for (int k = 0; k < 4; k++) {
+        assert_int_equal(all[0].n_start[k], 10 * (k + 1));
+        assert_int_equal(all[0].n_own[k], 10 * (k + 1) + 1);
+    }
     balance_free(&all[0]);
+}
+
+/* ---- ranges ---- */
+
+static void check_cut(const double *busy, const dem_index *own, const dem_index *start, const dem_index *expected)
+{
+    dem_index first[4];
+    balance b;
+    assert_ok(balance_create(&b, 3));
+    memcpy(b.busy, busy, 3 * sizeof *busy);
+    memcpy(b.n_own, own, 3 * sizeof *own);
+    memcpy(b.n_start, start, 3 * sizeof *start);
+    balance_cut(&b, first);
+    assert_memory_equal(first, expected, sizeof first);
+    balance_ranges(&b, first);
+    for (int k = 0; k < 3; k++) assert_int_equal(first[k + 1] - first[k], own[k]);
+    balance_free(&b);
+}
+
+TEST(ranges_have_equal_parts_of_the_work)
+{
+    const dem_index own[3] = {100, 100, 100}, even[4] = {0, 100, 200, 300};
+    check_cut((double[]){2.0, 2.0, 2.0}, own, own, even);
+    /* 4 s for each: 80 of the nodes that take 0.05 s, then 20 of these and 100 of 0.03 s. */
+    check_cut((double[]){5.0, 3.0, 4.0}, own, own, (dem_index[]){0, 80, 200, 300});
+    /* Where the work is unknown, bounds alone count. */
+    check_cut((double[]){0.0, 0.0, 0.0}, own, own, (dem_index[]){0, 50, 175, 300});
+}
+
+TEST(no_range_has_much_more_nodes_than_at_first_or_next_to_none)
+{
+    const dem_index own[3] = {100, 100, 100};
+    check_cut((double[]){1.0, 1.0, 10.0}, own, own, (dem_index[]){0, 125, 250, 300});
+    check_cut((double[]){10.0, 1.0, 1.0}, own, own, (dem_index[]){0, 50, 175, 300});
+    check_cut((double[]){1e9, 1.0, 1e9}, own, own, (dem_index[]){0, 66, 191, 300}); /* 66 2/3 of 100 */
+    /* Of nodes at first, whatever they are now. */
+    check_cut((double[]){1.0, 1.0, 10.0}, own, (dem_index[]){40, 130, 130}, (dem_index[]){0, 50, 213, 300});
 }
 
 int main(void)

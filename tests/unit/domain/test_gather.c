@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* gather.c: rank 0 has all rows, each from the rank that owns it. */
+/* gather.c, migration.c: rank 0 has all rows, each from the rank that owns it; rows go from rank to rank. */
 #include "unit/domain/shared_lattice.h"
 
-#include "domain/gather.h"
+#include "domain/migration.h"
 #include "harness/rank_threads.h"
 
 enum { MOST_RANKS = 6, DIM = 3 };
@@ -134,5 +134,61 @@ TEST(many_rows_come_chunk_by_chunk_and_go_back)
         assert_false(m.comes_apart);
         assert_int_equal(m.n_taken, MANY);
         assert_int_equal(m.n_calls, 2);
+    }
+}
+
+/* ---- shared out anew ---- */
+
+/* The first number of a rank's range, before or after. */
+static dem_index first_of(int rank, int n_ranks, bool after)
+{
+    return after ? (dem_index)MANY * rank * rank / (n_ranks * n_ranks) : (dem_index)MANY * rank / n_ranks;
+}
+
+/* Owned nodes, and five of others on each side, of which nothing is to be believed. */
+static dem_status keep_range(const ranks *r, migrating_rows *out, unsigned char *rows)
+{
+    const dem_index begin = first_of(r->rank, r->size, false), end = first_of(r->rank + 1, r->size, false);
+    unsigned char *is_own = malloc(MANY);
+    dem_index *number = malloc(MANY * sizeof *number), n = 0;
+    for (dem_index k = begin - 5; k < end + 5; k++) {
+        if (k < 0 || k >= MANY) continue;
+        is_own[n] = k >= begin && k < end;
+        for (dem_index q = 0; q < SIZE; q++) rows[SIZE * n + q] = is_own[n] ? byte_of(k, q) : 0xee;
+        number[n++] = k;
+    }
+    const gather_items items = {.n = n, .n_whole = MANY, .number = number, .is_own = is_own};
+    const dem_status status = migration_begin(out, &items, SIZE, rows);
+    free(number);
+    free(is_own);
+    return status;
+}
+
+/* Afterwards a rank has all of its range, and every seventh beside it. */
+static void move_many(const ranks *r, void *context)
+{
+    many *m = context;
+    const dem_index begin = first_of(r->rank, r->size, true), end = first_of(r->rank + 1, r->size, true);
+    unsigned char *rows = malloc((size_t)MANY * SIZE);
+    dem_index *number = malloc(MANY * sizeof *number), n = 0;
+    migrating_rows kept;
+    m->is_good[r->rank] = keep_range(r, &kept, rows) == DEM_OK;
+    memset(rows, 0xee, (size_t)MANY * SIZE);
+    for (dem_index k = 0; k < MANY; k++)
+        if ((k >= begin && k < end) || k % 7 == 0) number[n++] = k;
+    const gather_items items = {.n = n, .n_whole = MANY, .number = number};
+    if (migration_end(&kept, r, &items, rows) != DEM_OK || kept.rows != NULL) m->is_good[r->rank] = false;
+    for (dem_index k = 0; k < SIZE * n; k++)
+        if (rows[k] != byte_of(number[k / SIZE], k % SIZE)) m->is_good[r->rank] = false;
+    free(number);
+    free(rows);
+}
+
+TEST(rows_migrate_from_those_who_owned_them_to_all_who_have_them)
+{
+    for (int n_ranks = 1; n_ranks <= MOST_RANKS; n_ranks++) {
+        many m = {.whole = NULL};
+        rank_threads_run(n_ranks, move_many, &m);
+        for (int k = 0; k < n_ranks; k++) assert_true(m.is_good[k]);
     }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* shared_slabs.c, whole_of_parts.c, led_run.c: rank 0 leads a run of a lattice that nobody has, and its files are those
- * of a process that has it. */
+/* shared_slabs.c, whole_of_parts.c, led_run.c, led_parts.c, slab_migration.c: rank 0 leads a run of a lattice that
+ * nobody has, and its files are those of a process that has it, whether or not nodes are shared out anew. */
 #include "base/checkpoint_entries.h"
 #include "base/slab_recipe.h"
 #include "harness/rank_threads.h"
@@ -10,8 +10,11 @@
 #include "unit/simulation/runs.h"
 #include "verification/rank_runs.h"
 
-#include <dem/slab.h>
+#include "shape/shape_slab.h"
+
 #include <dem/trajectory.h>
+
+#include <stdatomic.h>
 
 enum { N_RANKS = 3, TEXT = 256, MOST_STRESSED = 5 };
 
@@ -42,39 +45,81 @@ static dem_status assemble(dem_lattice *lattice)
     return dem_lattice_launch(lattice, down);
 }
 
+static dem_outline outline_of(double given)
+{
+    return (dem_outline)SIZED(dem_outline, .centre = {0.5 * width, 0.5 * given}, .size = {width, given});
+}
+
 static dem_model *make_whole(void)
 {
+    const dem_outline outline = outline_of(height);
+    const dem_shape shape = SIZED(dem_shape, .outline = &outline, .spacing = spacing);
     dem_lattice lattice = dem_lattice_empty();
-    assert_ok(dem_lattice_rectangle(&lattice, width, height, spacing));
+    assert_ok(dem_shape_lattice(&lattice, &shape, NULL));
     assert_ok(assemble(&lattice));
     dem_model *model = support_model(&lattice, &slope, 1);
     dem_lattice_free(&lattice);
     return model;
 }
 
-/* The recipe is the height of the rectangle. */
-static dem_status make_slab(void *program, const void *recipe, size_t size, dem_index part, dem_index n_parts,
-                            dem_slab *out)
+static dem_status cut_slab(const dem_shape *shape, const slab_share *which, dem_slab *out)
 {
-    double given;
-    (void)program;
-    if (size != sizeof given) return DEM_ERROR_ARGUMENT;
-    memcpy(&given, recipe, sizeof given);
-    TRY(dem_slab_rectangle(out, width, given, spacing, part, n_parts));
-    return assemble(&out->lattice);
+    dem_private_rows rows = {0};
+    dem_index *counts = NULL;
+    if (which->first == NULL) return dem_slab_shape(out, shape, which->part, which->n_parts);
+    const dem_index begin = which->first[which->part], end = which->first[which->part + 1];
+    const dem_status status = dem_private_slab_between(out, shape, &rows, &counts, begin, end);
+    free(counts);
+    if (status == DEM_OK && out->n_own == 0) return status_fail(DEM_ERROR_MODEL, "no rows");
+    return status;
 }
 
-static const slab_maker maker = {make_slab, NULL};
+/* How often slabs are made, and what is to go wrong. */
+typedef struct making {
+    atomic_int n[N_RANKS + 1];
+    int fails_at; /* which of them fails, on the last rank */
+    dem_status with;
+} making;
+
+/* The recipe is the height of the rectangle. */
+static dem_status make_slab(void *program, const void *recipe, size_t size, const slab_share *which, dem_slab *out)
+{
+    making *m = program;
+    double given;
+    if (size != sizeof given) return DEM_ERROR_ARGUMENT;
+    memcpy(&given, recipe, sizeof given);
+    const int n = atomic_fetch_add(&m->n[which->part], 1) + 1;
+    if (n == m->fails_at && which->part == which->n_parts - 1) return status_fail(m->with, "it is gone");
+    const dem_outline outline = outline_of(given);
+    const dem_shape shape = SIZED(dem_shape, .outline = &outline, .spacing = spacing);
+    TRY(cut_slab(&shape, which, out));
+    return assemble(&out->lattice);
+}
 
 /* ---- runs ---- */
 
 typedef struct written {
     const dem_model *whole; /* NULL: rank 0 leads a run of slabs */
-    double height;          /* m, of what is made in slabs */
+    slab_maker maker;
+    double height; /* m, of what is made in slabs */
     dem_options options;
     const char *path;
+    dem_index n_own;    /* nodes of rank 0 now, */
+    int n_shared;       /* and how often it has had other ones */
     char failure[TEXT]; /* empty: none */
 } written;
+
+static dem_status count_step(void *context, const dem_simulation *s)
+{
+    written *w = context;
+    if (s->leads == NULL) return DEM_OK;
+    const domain *d = led_run_part(s->leads)->model->domain;
+    dem_index n = 0;
+    for (dem_index i = 0; i < d->n_nodes; i++) n += d->is_own[i];
+    w->n_shared += n != w->n_own;
+    w->n_own = n;
+    return DEM_OK;
+}
 
 static dem_trajectory_options options_with(const dem_peaks *peaks)
 {
@@ -88,12 +133,14 @@ static dem_trajectory_options options_with(const dem_peaks *peaks)
     return o;
 }
 
-static dem_status advance(dem_simulation *s, dem_trajectory *t, dem_peaks *peaks)
+static dem_status advance(written *w, dem_simulation *s, dem_trajectory *t, dem_peaks *peaks)
 {
-    dem_observer all[2] = {{.struct_size = sizeof *all}, {.struct_size = sizeof *all}};
+    dem_observer all[3] = {{.struct_size = sizeof *all},
+                           {.struct_size = sizeof *all},
+                           {.struct_size = sizeof *all, .step = count_step, .context = w}};
     TRY(dem_trajectory_observer(t, &all[0]));
     TRY(dem_peaks_observer(peaks, &all[1]));
-    for (int k = 0; k < 2; k++) TRY(dem_simulation_observe(s, &all[k]));
+    for (int k = 0; k < 3; k++) TRY(dem_simulation_observe(s, &all[k]));
     TRY(dem_simulation_advance(s, t_whole));
     return dem_trajectory_finish(t);
 }
@@ -108,7 +155,7 @@ static dem_status run(written *w, const dem_model *model, const ranks *leads)
     if (status == DEM_OK) status = dem_simulation_create(&s, model, &w->options);
     if (status == DEM_OK && leads != NULL) status = dem_private_lead(s, leads, &w->options, NULL);
     if (status == DEM_OK) status = dem_trajectory_create(&t, w->path, s, &o);
-    if (status == DEM_OK) status = advance(s, t, peaks);
+    if (status == DEM_OK) status = advance(w, s, t, peaks);
     dem_trajectory_destroy(t);
     dem_simulation_destroy(s);
     dem_peaks_destroy(peaks);
@@ -120,7 +167,7 @@ static dem_status run_slabs(written *w, const ranks *r)
     dem_model *model = NULL;
     const slab_recipe recipe = {
         .bytes = &w->height, .size = sizeof w->height, .obstacles = &slope, .n_obstacles = 1, .options = &w->options};
-    TRY(dem_private_lead_slabs(&model, r, &maker, &recipe));
+    TRY(dem_private_lead_slabs(&model, r, &w->maker, &recipe));
     const dem_status status = run(w, model, r);
     dem_model_destroy(model);
     return status;
@@ -133,15 +180,17 @@ static void lead(const ranks *r, void *context)
     if (status != DEM_OK) (void)snprintf(w->failure, TEXT, "%s", dem_status_message());
 }
 
-static written prepare(const char *path)
+static written prepare(const char *path, making *slabs)
 {
-    written w = {.height = height, .options = dem_options_default(), .path = path};
+    written w = {.maker = {make_slab, slabs}, .height = height, .options = dem_options_default(), .path = path};
     w.options.checkpoint_steps = 8;
     w.options.bodies = DEM_BODIES_NONE;
     return w;
 }
 
-TEST(a_run_of_slabs_has_the_frames_of_a_process_that_has_the_whole)
+/* Runs slabs on ranks that say they work for such times, and compares with a process that has the whole.
+ * \param seconds  as rank_threads_pretend() has it */
+static void check_frames(const double *seconds, making *slabs, int *n_shared, dem_index *n_own)
 {
     scratch_folder folder;
     folder_open(&folder);
@@ -151,12 +200,71 @@ TEST(a_run_of_slabs_has_the_frames_of_a_process_that_has_the_whole)
          *n != NULL; n++)
         (void)folder_file(&folder, *n);
     dem_model *model = make_whole();
-    written alone = prepare(one), slabs = prepare(led);
+    written alone = prepare(one, NULL), ranks_have = prepare(led, slabs);
     assert_ok(run(&alone, model, NULL));
-    rank_runs_lead(N_RANKS, &maker, lead, &slabs);
-    assert_string_equal(slabs.failure, "");
+    rank_threads_pretend(seconds);
+    rank_runs_lead(N_RANKS, &ranks_have.maker, lead, &ranks_have);
+    rank_threads_pretend(NULL);
+    assert_string_equal(ranks_have.failure, "");
     same_frames_check(one, led);
+    *n_shared = ranks_have.n_shared;
+    *n_own = ranks_have.n_own;
     dem_model_destroy(model);
+    folder_close(&folder);
+}
+
+TEST(a_run_of_slabs_has_the_frames_of_a_process_that_has_the_whole)
+{
+    making slabs = {0};
+    int n_shared;
+    dem_index n_own;
+    check_frames(NULL, &slabs, &n_shared, &n_own);
+    assert_int_equal(n_shared, 1);
+    assert_int_equal(slabs.n[0], 1);
+}
+
+/* ---- shared out anew ---- */
+
+TEST(slabs_that_are_made_anew_change_no_bit)
+{
+    static const double slow_0[N_RANKS] = {3.0, 1.0, 1.0}, slow_2[N_RANKS] = {1.0, 1.0, 1.5},
+                        alike[N_RANKS] = {1.0, 1.0, 1.0};
+    making slabs = {0}, of_0 = {0}, of_2 = {0};
+    int n_shared;
+    dem_index n, n_own;
+    check_frames(alike, &slabs, &n_shared, &n);
+    assert_int_equal(n_shared, 1);
+    check_frames(slow_0, &of_0, &n_shared, &n_own);
+    assert_true(n_own < n && n_shared > 1);
+    check_frames(slow_2, &of_2, &n_shared, &n_own);
+    assert_true(n_own > n && n_own < 2 * n);
+    assert_true(of_2.n[0] > 2); /* not once only */
+}
+
+TEST(where_a_rank_would_have_no_rows_nodes_stay_where_they_are)
+{
+    static const double slow_0[N_RANKS] = {3.0, 1.0, 1.0};
+    making slabs = {.fails_at = 2, .with = DEM_ERROR_MODEL};
+    int n_shared;
+    dem_index n_own;
+    check_frames(slow_0, &slabs, &n_shared, &n_own);
+    assert_true(slabs.n[0] > 2 && slabs.n[0] > n_shared);
+}
+
+TEST(slabs_that_cannot_be_made_again_end_the_run)
+{
+    static const double slow_0[N_RANKS] = {3.0, 1.0, 1.0};
+    making slabs = {.fails_at = 2, .with = DEM_ERROR_IO};
+    scratch_folder folder;
+    folder_open(&folder);
+    written w = prepare(folder_file(&folder, "led.vtkhdf"), &slabs);
+    rank_threads_pretend(slow_0);
+    rank_runs_lead(N_RANKS, &w.maker, lead, &w);
+    rank_threads_pretend(NULL);
+    assert_string_equal(w.failure, "it is gone");
+    (void)folder_file(&folder, "led.part.vtkhdf");
+    (void)folder_file(&folder, "led.body.vtkhdf");
+    (void)folder_file(&folder, "led.obstacle.vtkhdf");
     folder_close(&folder);
 }
 
@@ -190,7 +298,7 @@ static void lead_on(const ranks *r, void *context)
                                 .obstacles = &slope,
                                 .n_obstacles = 1,
                                 .options = &w->of.options};
-    dem_status status = dem_private_lead_slabs(&model, r, &maker, &recipe);
+    dem_status status = dem_private_lead_slabs(&model, r, &w->of.maker, &recipe);
     if (status == DEM_OK) status = go_on(w, model, r);
     if (status != DEM_OK) (void)snprintf(w->of.failure, TEXT, "%s", dem_status_message());
     dem_model_destroy(model);
@@ -210,11 +318,12 @@ static dem_checkpoint *checkpoint_half_way(const dem_model *model, const dem_opt
 TEST(a_run_of_slabs_goes_on_from_the_checkpoint_of_one_process)
 {
     dem_model *model = make_whole();
-    resumed alone = {.of = prepare("none.vtkhdf")}, slabs = alone;
+    making made = {0};
+    resumed alone = {.of = prepare("none.vtkhdf", &made)}, slabs = alone;
     const size_t size = 4 * (size_t)ask_sizes(model).n_nodes * sizeof(double);
     alone.from = slabs.from = checkpoint_half_way(model, &alone.of.options);
     assert_ok(go_on(&alone, model, NULL));
-    rank_runs_lead(N_RANKS, &maker, lead_on, &slabs);
+    rank_runs_lead(N_RANKS, &slabs.of.maker, lead_on, &slabs);
     assert_string_equal(slabs.of.failure, "");
     assert_memory_equal(alone.state, slabs.state, size);
     free(alone.state);
@@ -225,9 +334,10 @@ TEST(a_run_of_slabs_goes_on_from_the_checkpoint_of_one_process)
 
 TEST(a_recipe_that_one_rank_cannot_follow_is_refused_on_all)
 {
-    written w = prepare("none.vtkhdf");
+    making made = {0};
+    written w = prepare("none.vtkhdf", &made);
     w.height = spacing; /* too few rows for a slab of each */
-    rank_runs_lead(N_RANKS + 1, &maker, lead, &w);
+    rank_runs_lead(N_RANKS + 1, &w.maker, lead, &w);
     assert_non_null(strstr(w.failure, "rows"));
 }
 

@@ -353,7 +353,8 @@ static dem_index check_springs(const dem_lattice *whole, const dem_slab *slab, d
     return before;
 }
 
-static void check_slabs(const deck *whole, const deck *slabs)
+/* \param first  NULL: as the recipe's maker shares nodes out */
+static void check_slabs(const deck *whole, const deck *slabs, const dem_index *first)
 {
     size_t size;
     void *recipe = deck_slabs_recipe(&size, &slabs->slabs, slabs->echo);
@@ -361,7 +362,8 @@ static void check_slabs(const deck *whole, const deck *slabs)
     assert_non_null(recipe);
     for (dem_index part = 0; part < slabs->slabs.n; part++) {
         CLEANUP(dem_slab_free) dem_slab slab = dem_slab_empty();
-        assert_int_equal(deck_slabs_make(NULL, recipe, size, part, slabs->slabs.n, &slab), DEM_OK);
+        assert_int_equal(deck_slabs_make(NULL, recipe, size, &(slab_share){part, slabs->slabs.n, first}, &slab),
+                         DEM_OK);
         assert_int_equal(slab.first_node, n_nodes);
         check_nodes(&whole->lattice, &slab);
         check_rim(&whole->lattice, &slab);
@@ -373,6 +375,15 @@ static void check_slabs(const deck *whole, const deck *slabs)
     assert_int_equal(n_springs, whole->lattice.n_springs);
     assert_int_equal(n_triangles, whole->lattice.n_triangles);
     free(recipe);
+}
+
+/* Ranges that grow, with nodes of any row at their ends. */
+static void check_other_ranges(const deck *whole, const deck *slabs)
+{
+    dem_index first[MOST_SLABS + 1] = {0};
+    const dem_index n = slabs->slabs.n, all = whole->lattice.n_nodes;
+    for (dem_index k = 1; k <= n; k++) first[k] = all * (k * k + 2 * k) / (n * n + 2 * n);
+    check_slabs(whole, slabs, first);
 }
 
 TEST(slabs_have_the_facts_and_the_nodes_of_the_whole)
@@ -388,7 +399,8 @@ TEST(slabs_have_the_facts_and_the_nodes_of_the_whole)
             check_facts(&whole, &slabs);
             check_boundaries(&whole, &slabs);
             check_probes(&whole, &slabs);
-            check_slabs(&whole, &slabs);
+            check_slabs(&whole, &slabs, NULL);
+            check_other_ranges(&whole, &slabs);
         }
     }
     assert_true(n_gaps > 0);
