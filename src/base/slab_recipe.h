@@ -40,7 +40,8 @@ typedef struct slab_source {
     slab_maker maker;
     void *recipe; /**< [size] owned */
     size_t size;
-    double price; /**< s, which it took rank 0 to have them made */
+    double price;   /**< s, which it took rank 0 to have them made */
+    dem_index hash; /**< whole_of_parts_hash() of them */
 } slab_source;
 
 #endif

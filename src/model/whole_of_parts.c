@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/random.h"
 #include "base/reduce.h"
 #include "base/status.h"
 #include "domain/gather.h"
@@ -99,4 +100,48 @@ dem_status whole_of_parts_visit(const dem_model *part, int array, rows_taker *ta
     const gather_items items = items_of(part, a->of);
     if (lattice_array_is_corners(a)) return visit_corners(part, a, &items, take, context);
     return gather_chunks(part->ranks, &items, a->size, lattice_array_of(&part->lattice, a), take, context);
+}
+
+/* ---- the same again ---- */
+
+/* A sum over own rows depends on nobody's share. So few of its bits that those of all ranks can be added. */
+static const uint64_t bits_of_sum = ((uint64_t)1 << 40) - 1;
+
+static uint64_t hash_rows(const gather_items *items, uint64_t hash, size_t size, const void *rows)
+{
+    uint64_t sum = 0;
+    for (dem_index i = 0; i < items->n; i++) {
+        if (!gather_owns(items, i)) continue;
+        const uint64_t of_row = random_mix(hash + random_stride * (uint64_t)(gather_number(items, i) + 1));
+        sum += random_hash(of_row, (const char *)rows + (size_t)i * size, size);
+    }
+    return sum;
+}
+
+static dem_status hash_array(const dem_model *part, int array, uint64_t *sum)
+{
+    const lattice_array *a = &lattice_arrays[array];
+    const gather_items items = items_of(part, a->of);
+    const void *rows = lattice_array_of(&part->lattice, a);
+    const uint64_t hash = random_mix((uint64_t)array);
+    dem_index *number = NULL;
+    if (rows == NULL) return DEM_OK;
+    if (lattice_array_is_corners(a)) {
+        rows = number = number_corners(part, rows, (size_t)(items.n * items.n_corners));
+        CHECK_MEMORY(number);
+    }
+    *sum += hash_rows(&items, hash, a->size, rows);
+    free(number);
+    return DEM_OK;
+}
+
+dem_status whole_of_parts_hash(const dem_model *part, dem_index *out)
+{
+    uint64_t sum = 0;
+    dem_status status = DEM_OK;
+    for (int k = 0; k < LATTICE_ARRAYS && status == DEM_OK; k++) status = hash_array(part, k, &sum);
+    TRY(reduce_status(part->ranks, status, 0.0));
+    const dem_index all = reduce_count(part->ranks, (dem_index)(sum & bits_of_sum));
+    *out = (dem_index)((uint64_t)all & bits_of_sum);
+    return DEM_OK;
 }

@@ -14,6 +14,10 @@
  *  \return DEM_ERROR_MEMORY, on all ranks */
 dem_status whole_of_parts_create(dem_model **out, dem_model *part, model_array_asker *ask);
 
+/** A number that hardly any two wholes have which differ in some array, whatever the shares of the ranks. Collective.
+ *  \return DEM_ERROR_MEMORY, on all ranks */
+dem_status whole_of_parts_hash(const dem_model *part, dem_index *out);
+
 /** Hands array number `array` of lattice_arrays to a function of rank 0, chunk by chunk. Collective.
  *  \param take  on rank 0; NULL elsewhere
  *  \return as gather_chunks() */

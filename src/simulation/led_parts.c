@@ -25,13 +25,25 @@ void led_parts_drop_model(led_run *l)
     l->is_of_slabs = false;
 }
 
-void led_parts_drop(led_run *l)
+static void drop_part(led_run *l)
 {
     shared_peaks_drop(&l->peaks);
     rank_order_forget(&l->kept);
     dem_simulation_destroy(l->part);
     l->part = NULL;
     l->is_observed = false;
+}
+
+static void drop_migration(led_run *l)
+{
+    slab_migration_free(&l->migration);
+    l->migrates = false;
+}
+
+void led_parts_drop(led_run *l)
+{
+    drop_part(l);
+    drop_migration(l);
     if (!l->is_of_slabs) led_parts_drop_model(l);
 }
 
@@ -84,8 +96,7 @@ dem_status led_parts_create(led_run *l, dem_checkpoint *entries, bool resumes, c
     if (status == DEM_OK) status = create_part(l, &p, resumes, checkpoint);
     led_ranks_leave(l);
     shared_problem_free(&p);
-    slab_migration_free(&l->migration);
-    l->migrates = false;
+    drop_migration(l);
     if (status != DEM_OK) led_parts_drop(l);
     if (l->weighs_anew)
         balance_begin(&l->balance, l->busy);
@@ -103,7 +114,20 @@ void led_parts_make_slab(led_run *l, bool is_first)
     led_parts_drop_model(l);
     if (shared_slabs_create(&l->model, &l->ranks, l->maker, NULL) != DEM_OK) return;
     l->is_of_slabs = true;
-    if (is_first && whole_of_parts_create(NULL, l->model, NULL) != DEM_OK) led_parts_drop_model(l);
+    dem_index hash;
+    dem_status status = whole_of_parts_hash(l->model, &hash);
+    if (status == DEM_OK && is_first) status = whole_of_parts_create(NULL, l->model, NULL);
+    if (status != DEM_OK) led_parts_drop_model(l);
+}
+
+/* Files may be others by now. */
+static dem_status check_same(const dem_model *whole)
+{
+    dem_index hash;
+    TRY(whole_of_parts_hash(whole->part, &hash));
+    CHECK(hash == whole->slabs.hash, DEM_ERROR_IO,
+          "bodies have become others since the run began, as their slabs show, which were made again");
+    return DEM_OK;
 }
 
 dem_status led_parts_remake_slab(led_run *l, const dem_index *first)
@@ -117,7 +141,7 @@ dem_status led_parts_remake_slab(led_run *l, const dem_index *first)
                                 .first = first};
     const dem_status status = shared_slabs_create(&whole->part, &l->ranks, &whole->slabs.maker, &recipe);
     l->model = whole->part;
-    return status;
+    return status == DEM_OK ? check_same(whole) : status;
 }
 
 static dem_index count_own(const domain *d)
@@ -141,12 +165,12 @@ dem_status led_parts_migrate(led_run *l)
     const double *y = shared_checkpoint_state(l->part);
     const dem_status own = slab_migration_begin(&l->migration, l->part, y, &l->peaks);
     const dem_status status = reduce_status(&l->ranks, own, 0.0);
-    l->migrates = status == DEM_OK;
-    if (!l->migrates) {
-        slab_migration_free(&l->migration);
-        return status;
+    l->migrates = true;
+    if (status == DEM_OK) {
+        drop_part(l);
+        drop_slab(l);
+    } else {
+        drop_migration(l);
     }
-    led_parts_drop(l);
-    drop_slab(l);
-    return DEM_OK;
+    return status;
 }

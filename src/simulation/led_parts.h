@@ -17,7 +17,7 @@ void led_parts_make_slab(led_run *l, bool is_first);
 
 /** The same on rank 0, which has a model of the whole.
  *  \param first  see slab_share
- *  \return as shared_slabs_create(); then there is none */
+ *  \return as shared_slabs_create(); then there is none. DEM_ERROR_IO if it is another lattice than before */
 dem_status led_parts_remake_slab(led_run *l, const dem_index *first);
 
 /** Keeps rows of the part's last checkpoint, for the part that is made next, and ends it and its model, which is a

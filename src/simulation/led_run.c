@@ -530,12 +530,15 @@ dem_status dem_private_lead_slabs(dem_model **out, const ranks *r, const slab_ma
     const double begun = busy_time(r);
     (void)rank_call_send(r, (rank_call){.kind = RANK_CALL_SLABS});
     TRY(shared_slabs_create(&part, r, maker, recipe));
-    dem_status status = whole_of_parts_create(&whole, part, ask_array);
+    dem_index hash;
+    dem_status status = whole_of_parts_hash(part, &hash);
+    if (status == DEM_OK) status = whole_of_parts_create(&whole, part, ask_array);
     if (status != DEM_OK) {
         dem_model_destroy(part);
         return status;
     }
     whole->slabs.price = busy_time(r) - begun;
+    whole->slabs.hash = hash;
     status = keep_recipe(whole, maker, recipe);
     if (status == DEM_OK)
         *out = whole;
