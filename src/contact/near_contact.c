@@ -17,8 +17,8 @@ enum { NOW = 1, AHEAD = 2 }; /* bits of a node */
  * looks reach farther at once, at least and at most; speeds and edges may become larger. */
 static const double first_windows = 1.0, worth_it = 20.0, least_growth = 2.0, most_growth = 8.0, safety = 1.25;
 
-/* Without checkpoints ranks cannot go back, and `exact` needs the neighbours of all contacts. What may break is common
- * as a whole. */
+/* Without checkpoints ranks cannot go back, and `exact` needs the neighbours of all contacts. Where something
+ * breaks other nodes may touch. */
 static bool is_worth_asking(const dem_model *whole, const dem_options *o)
 {
     return whole->obstacles.n > 0 && o->contact == DEM_CONTACT_LOCAL && o->checkpoint_steps > 0 &&

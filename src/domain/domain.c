@@ -168,6 +168,8 @@ void domain_free(domain *d)
     free(d->is_ghost);
     free(d->is_common);
     free(d->is_outer);
+    free(d->joined);
+    free(d->joined_to);
     free(d->boundary);
     *d = (domain){0};
 }

@@ -31,6 +31,9 @@ typedef struct domain {
     unsigned char *is_ghost;          /* [n_nodes] 1: what it does comes from its owner; else it is integrated here */
     unsigned char *is_common;         /* [n_nodes] 1: it is integrated by all ranks */
     unsigned char *is_outer;          /* [n_nodes] 1: a ghost of the last ring: some of its neighbours are not here */
+    dem_index *joined;    /* [n_nodes] where something may break: the lowest of the nodes, by the numbers of the
+                                 whole, that are joined to it whatever breaks (model/joined_nodes.h); or NULL */
+    dem_index *joined_to; /* [n_nodes] likewise: the lowest one of the domain that has the same `joined` */
     dem_index n_boundary;
     dem_index *boundary; /* [n_boundary] nodes integrated here on the boundary of the whole triangulation, ascending */
     int n_rings;         /* of ghosts */

@@ -18,7 +18,8 @@ void break_list_destroy(break_list *b)
 {
     free(b->list);
     free(b->split);
-    free(b->fragment);
+    free(b->parent);
+    free(b->lowest);
     *b = (break_list){0};
 }
 
@@ -47,8 +48,10 @@ static void put_place(dem_break *out, const dem_index *nodes, int n, const doubl
 
 static bool make_room(break_list *b, dem_index n_nodes)
 {
-    if (b->fragment == NULL) b->fragment = malloc((size_t)n_nodes * sizeof *b->fragment);
-    return b->fragment != NULL && grow_array((void **)&b->list, &b->capacity, b->n + 1, sizeof *b->list) &&
+    if (b->parent == NULL) b->parent = malloc((size_t)n_nodes * sizeof *b->parent);
+    if (b->lowest == NULL) b->lowest = malloc((size_t)n_nodes * sizeof *b->lowest);
+    return b->parent != NULL && b->lowest != NULL &&
+           grow_array((void **)&b->list, &b->capacity, b->n + 1, sizeof *b->list) &&
            grow_array((void **)&b->split, &b->split_capacity, b->n + 1, sizeof *b->split);
 }
 
@@ -127,28 +130,29 @@ void break_list_break(break_list *b, dem_index k, const dem_model *model, elemen
 /* ---- the fragments that it splits off ---- */
 
 /* If a spring is broken, makes the fragments at its ends one again.
- * \return the number that goes, of two fragments that of the higher one; n_nodes: none does */
-static dem_index mend_spring(dem_index *fragment, const element_state *e, dem_index spring)
+ * \return the one that goes; -1: none does */
+static dem_index mend_spring(break_list *b, const element_state *e, dem_index spring)
 {
-    const dem_index *ends = &e->lattice->ends[2 * spring], none = e->lattice->n_nodes;
-    if (!springs_is_broken(element_state_springs(e), spring)) return none;
-    const dem_index a = union_find_root(fragment, ends[0]), b = union_find_root(fragment, ends[1]);
-    union_find_unite(fragment, a, b);
-    return a == b ? none : a > b ? a : b;
+    const dem_index *ends = &e->lattice->ends[2 * spring];
+    if (!springs_is_broken(element_state_springs(e), spring)) return -1;
+    return fragments_unite(b->parent, b->lowest, ends[0], ends[1]);
 }
 
-/* The same with what an element has held.  \return the lowest number that goes; -1: none does */
-static dem_index mend(dem_index *fragment, const element_state *e, const dem_break *b)
+static dem_index lower_of(dem_index a, dem_index b)
 {
-    const dem_index none = e->lattice->n_nodes;
-    const dem_index first = b->triangle >= 0 ? e->row[b->triangle] : 0;
-    const dem_index end = b->triangle >= 0 ? e->row[b->triangle + 1] : 0;
-    dem_index lowest = b->spring >= 0 ? mend_spring(fragment, e, b->spring) : none;
-    for (dem_index p = first; p < end; p++) {
-        const dem_index gone = mend_spring(fragment, e, e->spring[p]);
-        lowest = gone < lowest ? gone : lowest;
-    }
-    return lowest < none ? lowest : -1;
+    return a < 0 || (b >= 0 && b < a) ? b : a;
+}
+
+/* The same with what the k-th has held.  \return the lowest one that goes; -1: none does */
+static dem_index mend(break_list *b, dem_index k, const element_state *e)
+{
+    const dem_break *own = &b->list[k];
+    dem_index lowest = -1;
+    if (own->spring >= 0) lowest = mend_spring(b, e, own->spring);
+    if (own->triangle < 0) return lowest;
+    for (dem_index p = e->row[own->triangle]; p < e->row[own->triangle + 1]; p++)
+        lowest = lower_of(lowest, mend_spring(b, e, e->spring[p]));
+    return lowest;
 }
 
 /* From the last to the first, each break is taken back: a spring has then been broken by the last of the triangles that
@@ -156,8 +160,8 @@ static dem_index mend(dem_index *fragment, const element_state *e, const dem_bre
 void break_list_find_split(break_list *b, dem_index from, const dem_model *model, const element_state *elements)
 {
     if (from >= b->n) return;
-    (void)fragments_find(&model->lattice, element_state_springs(elements).pushed, b->fragment);
-    for (dem_index k = b->n; k-- > from;) b->split[k] = mend(b->fragment, elements, &b->list[k]);
+    fragments_begin(&model->lattice, model->domain, element_state_springs(elements).pushed, b->parent, b->lowest);
+    for (dem_index k = b->n; k-- > from;) b->split[k] = mend(b, k, elements);
 }
 
 dem_break break_list_at(const break_list *b, dem_index k, const dem_model *model)
@@ -166,6 +170,6 @@ dem_break break_list_at(const break_list *b, dem_index k, const dem_model *model
     dem_break own = b->list[k];
     if (own.triangle >= 0) own.triangle = domain_triangle(d, own.triangle);
     if (own.spring >= 0) own.spring = domain_spring(d, own.spring);
-    own.fragment_new = b->split[k] >= 0 ? domain_number(d, b->split[k]) : -1;
+    own.fragment_new = b->split[k];
     return own;
 }

@@ -2,12 +2,8 @@
 #include "model/breakable_nodes.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-#include "base/status.h"
-#include "base/union_find.h"
-#include "domain/adjacency.h"
-#include "lattice/lattice.h"
+#include "domain/common_nodes.h"
 
 static const dem_index *nodes_of(const dem_lattice *l, dem_index element)
 {
@@ -22,26 +18,17 @@ bool breakable_element(const dem_lattice *l, dem_index element)
            !(l->flags[*nodes_of(l, element)] & DEM_NODE_RIGID);
 }
 
-/* `part` has the lowest node of the part of each that springs and triangles join; nodes of an element are of one. */
-static void mark_parts(const dem_lattice *l, dem_index *part, unsigned char *marked)
+static void mark_elements(const dem_lattice *l, unsigned char *marked)
 {
     for (dem_index e = 0; e < l->n_triangles + l->n_springs; e++)
-        if (breakable_element(l, e)) marked[union_find_root(part, *nodes_of(l, e))] = 1;
-    for (dem_index i = 0; i < l->n_nodes; i++) marked[i] = marked[union_find_root(part, i)];
+        for (int c = 0; c < (e < l->n_triangles ? 3 : 2) && breakable_element(l, e); c++) marked[nodes_of(l, e)[c]] = 1;
 }
 
-dem_status breakable_nodes_mark(const dem_lattice *l, unsigned char *marked)
+void breakable_nodes_mark(const dem_lattice *l, unsigned char *marked)
 {
     for (dem_index i = 0; i < l->n_nodes; i++) marked[i] = 0;
-    if (!breakable_lattice(l)) return DEM_OK;
-    dem_index *part = lattice_zeros(l->n_nodes, sizeof *part), pair[2];
-    CHECK_MEMORY(part);
-    union_find_start(part, l->n_nodes);
-    for (dem_index k = 0; k < adjacency_pairs(l); k++) {
-        adjacency_pair(l, k, pair);
-        union_find_unite(part, pair[0], pair[1]);
-    }
-    mark_parts(l, part, marked);
-    free(part);
-    return DEM_OK;
+    if (!breakable_lattice(l)) return;
+    mark_elements(l, marked);
+    common_nodes_add_rings(l, 1, marked);
+    for (dem_index i = 0; i < l->n_nodes; i++) marked[i] = marked[i] > 0;
 }

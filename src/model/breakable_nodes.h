@@ -17,10 +17,10 @@ static inline bool breakable_lattice(const dem_lattice *lattice)
  *  triangles of a lattice, then its springs. */
 bool breakable_element(const dem_lattice *lattice, dem_index element);
 
-/** Marks the nodes of elements that may break, and all that springs and triangles join to them, as far as these go.
+/** Marks the nodes whose forces change when an element breaks, and so what may be a surface then: the nodes of elements
+ *  that may break, and all that are next to these, as the second diagonal of a cell ends there.
  *  \param lattice      that of a model
- *  \param[out] marked  [n_nodes] 1: such a node; else 0
- *  \return DEM_ERROR_MEMORY */
-dem_status breakable_nodes_mark(const dem_lattice *lattice, unsigned char *marked);
+ *  \param[out] marked  [n_nodes] 1: such a node; else 0 */
+void breakable_nodes_mark(const dem_lattice *lattice, unsigned char *marked);
 
 #endif

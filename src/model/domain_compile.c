@@ -11,6 +11,7 @@
 #include "model/breakable_nodes.h"
 #include "model/coupled_bound.h"
 #include "model/domain_stress.h"
+#include "model/joined_nodes.h"
 #include "obstacle/obstacle_set.h"
 
 /* The numbers that nodes and triangles about the domain have in it; -1: they are beside it. */
@@ -166,6 +167,7 @@ dem_status domain_compile(domain_cut *c, const dem_obstacle *obstacles, dem_inde
 {
     dem_model *m = c->model;
     TRY(compile_cut(c));
+    if (m->domain->joined != NULL) TRY(joined_nodes_place(m->domain));
     TRY(model_rows_compile(m));
     TRY(compile_surface(m, touching));
     TRY(obstacles_compile(&m->obstacles, obstacles, n_obstacles));

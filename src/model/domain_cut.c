@@ -126,6 +126,15 @@ void domain_cut_close(domain_cut *c, bool keeps_model)
     *c = (domain_cut){0};
 }
 
+static dem_status copy_joined(domain *d, const whole_lattice *w)
+{
+    if (w->joined == NULL) return DEM_OK;
+    d->joined = malloc((size_t)d->n_nodes * sizeof *d->joined);
+    CHECK_MEMORY(d->joined);
+    for (dem_index i = 0; i < d->n_nodes; i++) d->joined[i] = w->joined[d->number[i]];
+    return DEM_OK;
+}
+
 /* While `local` has the numbers of the domain. */
 static dem_status find_elements(domain_cut *c, draft *s, const whole_lattice *w)
 {
@@ -141,6 +150,7 @@ static dem_status find_elements(domain_cut *c, draft *s, const whole_lattice *w)
 static dem_status fill(domain_cut *c, draft *s, whole_lattice *w)
 {
     TRY(find_elements(c, s, w));
+    TRY(copy_joined(c->model->domain, w));
     TRY(find_nodes(s, c, w));
     return cut_lattice(c, s, w);
 }

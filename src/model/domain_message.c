@@ -27,6 +27,7 @@ static head head_of(const domain_cut *c)
               .n_rigid_nodes = m->rigid.n_nodes};
     h.domain.number = h.domain.spring = NULL;
     h.domain.is_own = h.domain.is_ghost = h.domain.is_common = h.domain.is_outer = NULL;
+    h.domain.joined = NULL;
     h.domain.neighbours = NULL;
     return h;
 }
@@ -78,6 +79,7 @@ static void list_domain(parcel *p, domain *d, const head *h)
     parcel_add(p, &d->is_ghost, n);
     parcel_add(p, &d->is_common, n);
     parcel_add(p, &d->is_outer, n);
+    parcel_add(p, &d->joined, n * sizeof *d->joined);
     parcel_add(p, &d->neighbours, (size_t)h->domain.n_neighbours * sizeof *d->neighbours);
 }
 

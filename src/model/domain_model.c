@@ -13,8 +13,8 @@
  * - where bodies touch each other, or themselves, all nodes of their surfaces, with the boundary of the whole and the
  *   sums over its bodies by which the laws of surfaces are chosen;
  * - rigid bodies, whose motion follows from sums over them;
- * - what has elements that may break, with all that is joined to these: which break, in which order, and what comes of
- *   it, surfaces and fragments too, each rank finds by itself;
+ * - nodes of elements that may break, and what is next to these: which break, in which order, and what comes of it,
+ *   surfaces too, each rank finds by itself, and fragments with what springs that cannot break join for good;
  * - where there are obstacles, or surfaces beside what may break, what the correction of a step for an event changes or
  *   reads, too (events/local_correction.c): its rings about the nodes that the event moves, which are among those that
  *   may touch or break, and the accelerations of the last of these rings. From one surface to another that it touches a

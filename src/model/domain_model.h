@@ -10,8 +10,8 @@
 
 /** Cuts the model of a rank from one of the whole lattice, which may be destroyed afterwards. Own nodes have the
  *  masses, springs, triangles, surface edges and stresses of the whole: where the domain ends there is no boundary.
- *  Common nodes have the same; rigid bodies, and what is joined to elements that may break, have no others. Ghosts
- *  whose neighbours are all here are accelerated, too, others are not. Collective.
+ *  Common nodes have the same; rigid bodies, and elements that may break, have no others. Ghosts whose neighbours are
+ *  all here are accelerated, too, others are not. Collective.
  *  Borrows the ranks. Free with dem_model_destroy().
  *  \return DEM_ERROR_MODEL if a rank owns no node, DEM_ERROR_MEMORY */
 dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model *whole,

@@ -29,6 +29,30 @@ dem_index fragments_find(const dem_lattice *lattice, const double *integrity, de
     return n_fragments;
 }
 
+dem_index fragments_unite(dem_index *parent, dem_index *lowest, dem_index i, dem_index j)
+{
+    const dem_index a = union_find_root(parent, i), b = union_find_root(parent, j);
+    if (a == b) return -1;
+    const dem_index stays = lowest[a] < lowest[b] ? lowest[a] : lowest[b], goes = lowest[a] + lowest[b] - stays;
+    union_find_unite(parent, a, b);
+    lowest[a < b ? a : b] = stays;
+    return goes;
+}
+
+/* Nodes outside of a domain join some of it for good. */
+void fragments_begin(const dem_lattice *lattice, const domain *d, const double *integrity, dem_index *parent,
+                     dem_index *lowest)
+{
+    const bool is_joined = d != NULL && d->joined != NULL;
+    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        parent[i] = is_joined ? d->joined_to[i] : i;
+        lowest[i] = is_joined ? d->joined[i] : domain_number(d, i);
+    }
+    for (dem_index k = 0; k < lattice->n_springs; k++)
+        if (integrity == NULL || integrity[k] != 0.0)
+            (void)fragments_unite(parent, lowest, lattice->ends[2 * k], lattice->ends[2 * k + 1]);
+}
+
 /* ---- how much is broken, and into what ---- */
 
 /* [n_nodes] each. */

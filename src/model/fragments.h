@@ -13,6 +13,18 @@
  *  \return their number */
 dem_index fragments_find(const dem_lattice *lattice, const double *integrity, dem_index *fragment);
 
+/** Fragments as sets that can be made one again (base/union_find.h), of a lattice that may be a part of another, with
+ *  all that may break.
+ *  \param d             its domain; NULL: it is the whole
+ *  \param[out] parent  [n_nodes] sets of nodes
+ *  \param[out] lowest  [n_nodes] of a root: the lowest node of the fragment, by the numbers of the whole */
+void fragments_begin(const dem_lattice *lattice, const domain *d, const double *integrity, dem_index *parent,
+                     dem_index *lowest);
+
+/** Makes the fragments of two nodes one.
+ *  \return the lowest node of the one that goes, that of the higher number; -1: they are one already */
+dem_index fragments_unite(dem_index *parent, dem_index *lowest, dem_index i, dem_index j);
+
 /** How much is broken, and into what.  \param elements  NULL: all are whole  \return DEM_ERROR_MEMORY */
 dem_status fragments_measure(const dem_lattice *lattice, const element_state *elements, dem_fracture *out);
 

@@ -9,6 +9,7 @@
 #include "domain/common_nodes.h"
 #include "lattice/lattice.h"
 #include "model/breakable_nodes.h"
+#include "model/joined_nodes.h"
 #include "model/mesh_boundary.h"
 
 whole_parts whole_parts_of(const dem_model *m)
@@ -47,12 +48,12 @@ static bool has_events(const whole_parts *whole)
 }
 
 /* Without obstacles, and what may break, there are no events, and so no rings. What is not near has none either.
- * \param touching  whether surfaces may touch each other */
+ * \param touching   whether surfaces may touch each other
+ * \param is_common  where nodes that may feel a break are marked, and others 0 */
 static dem_status find_common(const whole_parts *whole, bool touching, const unsigned char *is_near,
                               unsigned char *is_common)
 {
     const dem_lattice *l = whole->lattice;
-    TRY(breakable_nodes_mark(l, is_common));
     mark_near(whole, is_near, is_common);
     if (touching && is_near == NULL) TRY(mesh_boundary_mark_nodes(l, is_common, 1));
     if (has_events(whole)) common_nodes_add_rings(l, whole_lattice_rings(l), is_common);
@@ -139,12 +140,24 @@ static dem_status list_elements(whole_lattice *w)
     return node_rows_create(&w->triangles, l->triangles, 3, l->n_triangles, l->n_nodes);
 }
 
+static dem_status find_breakable(whole_lattice *w)
+{
+    const dem_lattice *l = w->of.lattice;
+    if (!breakable_lattice(l)) return DEM_OK;
+    breakable_nodes_mark(l, w->is_common);
+    w->joined = lattice_zeros(l->n_nodes, sizeof *w->joined);
+    CHECK_MEMORY(w->joined);
+    joined_nodes_find(l, w->is_common, w->joined);
+    return DEM_OK;
+}
+
 /* Of a part with the rings, as the nodes that they are about are known. */
 static dem_status look_for_common(whole_lattice *w, const domain_model_shares *shares)
 {
     const dem_lattice *l = w->of.lattice;
     w->is_common = lattice_zeros(l->n_nodes, sizeof *w->is_common);
     CHECK_MEMORY(w->is_common);
+    TRY(find_breakable(w));
     if (w->of.is_common == NULL) return find_common(&w->of, shares->touching, shares->is_near, w->is_common);
     memcpy(w->is_common, w->of.is_common, (size_t)l->n_nodes);
     if (has_events(&w->of)) common_nodes_add_rings(l, whole_lattice_rings(l), w->is_common);
@@ -165,4 +178,5 @@ void whole_lattice_close(whole_lattice *w)
     node_rows_free(&w->springs);
     node_rows_free(&w->triangles);
     free(w->is_common);
+    free(w->joined);
 }

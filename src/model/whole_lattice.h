@@ -29,6 +29,7 @@ typedef struct whole_parts {
 typedef struct whole_lattice {
     whole_parts of;
     unsigned char *is_common; /* [n_nodes] 1: all ranks integrate it */
+    dem_index *joined;        /* [n_nodes] joined_nodes_find(); NULL: nothing may break */
     domain_shares shares;
     domain_lists lists;           /* of the nodes of all ranks */
     node_rows springs, triangles; /* at each node */

@@ -94,7 +94,8 @@ dem_status shared_breaks_cut(const dem_simulation *s, dem_checkpoint *checkpoint
     list_entries(s->model, entries);
     unsigned char *breakable = malloc((size_t)s->model->lattice.n_nodes + 1);
     CHECK(breakable != NULL, DEM_ERROR_MEMORY, "out of memory for a checkpoint");
-    dem_status status = breakable_nodes_mark(&s->model->lattice, breakable);
+    dem_status status = DEM_OK;
+    breakable_nodes_mark(&s->model->lattice, breakable);
     for (int k = 0; k < N_ENTRIES && status == DEM_OK; k++) status = cut(&entries[k], breakable, checkpoint);
     free(breakable);
     return status;
