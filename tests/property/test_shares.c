@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A run is the same to the last bit on any number of ranks, with any number of threads, whichever owns which node:
- * random bodies among random obstacles, by both methods of contact, crowds that run into each other, and crowds that
- * break. Each case has some of the ways to share it, or with 'all' all of them; by every other one it goes on from a
- * checkpoint.
+ * random bodies among random obstacles, by both methods of contact, crowds that run into each other, crowds that break,
+ * and bodies that break in a few places. Each case has some of the ways to share it, or with 'all' all of them; by
+ * every other one it goes on from a checkpoint.
  * `test_shares [CASES [FIRST_SEED [all]]]`. */
 #include <stdlib.h>
 #include <string.h>
@@ -159,8 +159,89 @@ TEST(who_owns_which_node_of_a_crowd_that_breaks_leaves_no_trace)
         dem_lattice_free(&c.lattice);
     }
     assert_true(n_breaks > 0 || n_cases < 6);
-    print_message("# %lld breaks; in all tests %ld runs on ranks, %ld of them from a checkpoint\n", (long long)n_breaks,
-                  n_runs, n_resumed);
+}
+
+/* ---- bodies of which a part may break ---- */
+
+enum { MOST_PLACES = 3 };
+
+static double draw(gsl_rng *random, double low, double high)
+{
+    return low + (high - low) * gsl_rng_uniform(random);
+}
+
+/* By stress or by stretch, at some nodes as far as a few spacings. */
+static void weaken_places(dem_lattice *l, gsl_rng *random, uint64_t seed)
+{
+    const bool by_stress = seed % 2 == 0;
+    const dem_index n = by_stress ? l->n_triangles : l->n_springs, arity = by_stress ? 3 : 2;
+    const dem_index *nodes = by_stress ? l->triangles : l->ends;
+    dem_index place[MOST_PLACES];
+    double reach[MOST_PLACES];
+    for (int q = 0; q < MOST_PLACES; q++) {
+        place[q] = (dem_index)gsl_rng_uniform_int(random, (unsigned long)l->n_nodes);
+        reach[q] = draw(random, 0.0, 0.02);
+    }
+    weaken(l, seed);
+    double *limits = by_stress ? l->strength : l->critical_stretch;
+    for (dem_index k = 0; k < n; k++) {
+        bool is_near = false;
+        for (int q = 0; q < MOST_PLACES; q++) {
+            const double *x = l->x + 2 * nodes[arity * k], *y = l->x + 2 * place[q];
+            is_near = is_near || hypot(x[0] - y[0], x[1] - y[1]) < reach[q];
+        }
+        limits[k] = is_near ? 0.4 * limits[k] : (double)INFINITY;
+    }
+}
+
+/* A ring or a rectangle of 900 nodes or so that is pulled and turned. */
+static dem_lattice draw_body(gsl_rng *random, uint64_t seed)
+{
+    const dem_outline ring = SIZED(dem_outline, .kind = DEM_OUTLINE_RING, .radius = 0.08, .inner_radius = 0.045),
+                      plate = SIZED(dem_outline, .size = {0.15, 0.08});
+    const dem_shape shape = SIZED(dem_shape, .outline = seed % 3 == 0 ? &plate : &ring, .spacing = 4e-3);
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                      .density = 1050.0, .thickness = 1.0, .guard = 0.02);
+    double rate[4];
+    dem_lattice l = dem_lattice_empty();
+    assert_ok(dem_shape_lattice(&l, &shape, NULL));
+    assert_ok(dem_lattice_assemble(&l, &rubber));
+    dem_lattice_move(&l, draw(random, -3.0, 3.0), (const double[2]){0.0, 0.0});
+    weaken_places(&l, random, seed);
+    for (int c = 0; c < 4; c++) rate[c] = draw(random, -150.0, 150.0); /* 1/s */
+    l.velocity = calloc(2 * (size_t)l.n_nodes, sizeof *l.velocity);
+    for (dem_index i = 0; i < l.n_nodes; i++)
+        for (int c = 0; c < 2; c++) l.velocity[2 * i + c] = rate[2 * c] * l.x[2 * i] + rate[2 * c + 1] * l.x[2 * i + 1];
+    return l;
+}
+
+TEST(who_owns_which_node_of_a_body_that_breaks_in_places_leaves_no_trace)
+{
+    static const dem_method methods[3] = {DEM_METHOD_VERLET, DEM_METHOD_FEHLBERG45, DEM_METHOD_RK4};
+    static const double floor_points[4] = {-1.0, 0.0, 1.0, 0.0};
+    const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 0.4);
+    dem_index n_breaks = 0;
+    for (long k = 0; k < n_cases; k++) {
+        const uint64_t seed = (uint64_t)(first_seed + k);
+        const bool falls = seed % 4 == 1;
+        gsl_rng *random = gsl_rng_alloc(gsl_rng_taus);
+        gsl_rng_set(random, seed);
+        CLEANUP(dem_lattice_free) dem_lattice l = draw_body(random, seed);
+        dem_lattice_move(&l, 0.0, (const double[2]){0.0, 1e-3 - support_bottom(&l)});
+        CLEANUP(free_model) dem_model *whole = support_model(&l, &floor, falls);
+        rank_runs_scene run = {.model = whole, .options = dem_options_default(), .t_end = 1.2e-3};
+        run.options.method = methods[seed % 3];
+        run.options.contact = seed % 5 == 0 ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL;
+        run.options.bodies = seed % 7 < 3 ? DEM_BODIES_ALL : DEM_BODIES_NONE;
+        run.options.checkpoint_steps = 20;
+        rank_runs_outcome alone = check(&run, (unsigned long)seed);
+        n_breaks += alone.n_breaks;
+        rank_runs_free_outcome(&alone);
+        gsl_rng_free(random);
+    }
+    assert_true(n_breaks > 0 || n_cases < 6);
+    print_message("# %lld breaks in places; in all tests %ld runs on ranks, %ld of them from a checkpoint\n",
+                  (long long)n_breaks, n_runs, n_resumed);
     assert_true(n_resumed > n_runs / 4 || n_cases < 6);
 }
 
