@@ -18,7 +18,8 @@ static inline bool breakable_lattice(const dem_lattice *lattice)
 bool breakable_element(const dem_lattice *lattice, dem_index element);
 
 /** Marks the nodes whose forces change when an element breaks, and so what may be a surface then: the nodes of elements
- *  that may break, and all that are next to these, as the second diagonal of a cell ends there.
+ *  that may break, and all that are next to these, as triangles break with a spring that they hold, and the second
+ *  diagonal of a cell ends there. A spring of which an end is not marked cannot break.
  *  \param lattice      that of a model
  *  \param[out] marked  [n_nodes] 1: such a node; else 0 */
 void breakable_nodes_mark(const dem_lattice *lattice, unsigned char *marked);

@@ -58,12 +58,20 @@ static dem_index count(const unsigned char *flag, dem_index n)
     return set;
 }
 
-/* All flags that are set must be of elements that all ranks have: those with nodes in what may break. */
+static bool has_all(const flags *f, dem_index k, const unsigned char *breakable)
+{
+    for (int c = 0; c < f->arity; c++)
+        if (!breakable[f->nodes[f->arity * k + c]]) return false;
+    return true;
+}
+
+/* All flags that are set must be of elements that all ranks have, and whose springs may break: those of which all nodes
+ * are in what may break. */
 static dem_status check(const flags *f, const unsigned char *whole, const unsigned char *own,
                         const unsigned char *breakable)
 {
     dem_index known = 0;
-    for (dem_index k = 0; k < f->n; k++) known += own[k] != 0 && breakable[f->nodes[f->arity * k]];
+    for (dem_index k = 0; k < f->n; k++) known += own[k] != 0 && has_all(f, k, breakable);
     const dem_index all = count(whole, f->n_whole);
     CHECK(known == all, DEM_ERROR_MODEL,
           "in the checkpoint %lld of the %s are not of what may break by itself: ranks cannot share what a program "
