@@ -302,8 +302,8 @@ static void write_rigid(json *j, const lattice_facts *facts)
 
 static void write_overlap(json *j, const dem_simulation *simulation)
 {
-    const dem_overlap o = ask_overlap(simulation);
-    if (o.node < 0) return;
+    dem_overlap o = {.struct_size = sizeof o};
+    if (dem_simulation_overlap(simulation, &o) != DEM_OK || o.node < 0) return;
     json_open(j, "overlap", '{');
     json_integer(j, "node", o.node);
     json_integer(j, "triangle", o.triangle);

@@ -569,6 +569,7 @@ static dem_index **take_rows(const recipe *r)
     return rows;
 }
 
+/* Rank 0 has found no fault before: one of now is of a file that has changed. */
 dem_status deck_slabs_make(void *program, const void *bytes, size_t size, const slab_share *which, dem_slab *out)
 {
     const recipe *r = bytes;
@@ -585,6 +586,7 @@ dem_status deck_slabs_make(void *program, const void *bytes, size_t size, const 
     if (good) body_drop_unused(&groups);
     if (rows == NULL) status = DEM_ERROR_MEMORY;
     if (status == DEM_OK) status = errors.n == 0 ? make(out, &m, which) : DEM_ERROR_MODEL;
+    if (status == DEM_ERROR_MODEL && errors.n > 0) status = dem_private_slab_refuse(errors.list[0].text);
     free_rows(rows, r->n_bodies);
     schema_free(&groups);
     namelist_free(&list);

@@ -19,6 +19,11 @@ typedef struct slab_share {
 typedef dem_status dem_private_slab_maker(void *program, const void *recipe, size_t size, const slab_share *which,
                                           dem_slab *out);
 
+/** What a maker returns where a file is not, or no more, what the recipe was made by. Exported for dem_batch; no other
+ *  program may call it. Defined in simulation/shared_slabs.c.
+ *  \return DEM_ERROR_IO, with the message */
+DEM_API dem_status dem_private_slab_refuse(const char *message);
+
 /** What makes slabs on a rank. */
 typedef struct slab_maker {
     dem_private_slab_maker *make; /**< NULL: nothing does */
@@ -34,14 +39,5 @@ typedef struct slab_recipe {
     const dem_options *options; /**< for which the model is shared: dem_model_create_mpi_for() */
     const dem_index *first;     /**< [ranks + 1] as in slab_share; or NULL */
 } slab_recipe;
-
-/** By what rank 0 has slabs made again. */
-typedef struct slab_source {
-    slab_maker maker;
-    void *recipe; /**< [size] owned */
-    size_t size;
-    double price;   /**< s, which it took rank 0 to have them made */
-    dem_index hash; /**< whole_of_parts_hash() of them */
-} slab_source;
 
 #endif

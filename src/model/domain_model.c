@@ -15,7 +15,7 @@
  * - rigid bodies, whose motion follows from sums over them;
  * - nodes of elements that may break, and what is next to these: which break, in which order, and what comes of it,
  *   surfaces too, each rank finds by itself, and fragments with what springs that cannot break join for good;
- * - where there are obstacles, or surfaces beside what may break, what the correction of a step for an event changes or
+ * - where there are obstacles, or something may break, what the correction of a step for an event changes or
  *   reads, too (events/local_correction.c): its rings about the nodes that the event moves, which are among those that
  *   may touch or break, and the accelerations of the last of these rings. From one surface to another that it touches a
  *   ring goes to nodes that are on surfaces, and begins anew there. Who can do without some events has rings only where

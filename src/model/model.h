@@ -23,6 +23,16 @@
  *  \param array  its number in lattice_arrays */
 typedef dem_status model_array_asker(const dem_model *whole, int array, rows_taker *take, void *context);
 
+/* By what rank 0 has slabs made again. */
+typedef struct slab_source {
+    const ranks *ranks; /* which outlive the model */
+    slab_maker maker;
+    void *recipe; /* [size] owned */
+    size_t size;
+    double price;   /* s, which it took rank 0 to have them made */
+    dem_index hash; /* whole_of_parts_hash() of them */
+} slab_source;
+
 struct dem_model {
     const ranks *ranks;           /* that share it */
     bool ends_ranks;              /* whether their table ends with the model */

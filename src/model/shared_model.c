@@ -79,7 +79,7 @@ static dem_status prepare(dem_model **whole, int32_t **owner, const dem_private_
 static bool may_touch(const dem_model *whole, dem_private_touching touching)
 {
     const dem_lattice *l = &whole->lattice;
-    if (touching == DEM_PRIVATE_TOUCHING_UNKNOWN) /* what may break is common anyway */
+    if (touching == DEM_PRIVATE_TOUCHING_UNKNOWN) /* what breaks may touch itself */
         return whole->n_bodies > 1 || whole->obstacles.n > 0 || breakable_lattice(l);
     return touching == DEM_PRIVATE_TOUCHING_SOME;
 }

@@ -139,7 +139,7 @@ dem_status led_parts_remake_slab(led_run *l, const dem_index *first)
                                 .n_obstacles = whole->obstacles.n,
                                 .options = l->options,
                                 .first = first};
-    const dem_status status = shared_slabs_create(&whole->part, &l->ranks, &whole->slabs.maker, &recipe);
+    const dem_status status = shared_slabs_create(&whole->part, whole->slabs.ranks, &whole->slabs.maker, &recipe);
     l->model = whole->part;
     return status == DEM_OK ? check_same(whole) : status;
 }

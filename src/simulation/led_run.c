@@ -513,9 +513,10 @@ static double busy_time(const ranks *r)
 }
 
 /* For slabs that are made again. */
-static dem_status keep_recipe(dem_model *whole, const slab_maker *maker, const slab_recipe *recipe)
+static dem_status keep_recipe(dem_model *whole, const ranks *r, const slab_maker *maker, const slab_recipe *recipe)
 {
     slab_source *s = &whole->slabs;
+    s->ranks = r;
     s->maker = *maker;
     s->size = recipe->size;
     s->recipe = malloc(recipe->size + 1);
@@ -539,7 +540,7 @@ dem_status dem_private_lead_slabs(dem_model **out, const ranks *r, const slab_ma
     }
     whole->slabs.price = busy_time(r) - begun;
     whole->slabs.hash = hash;
-    status = keep_recipe(whole, maker, recipe);
+    status = keep_recipe(whole, r, maker, recipe);
     if (status == DEM_OK)
         *out = whole;
     else

@@ -19,6 +19,11 @@ static dem_status put(dem_checkpoint *into, const slab_recipe *recipe, int n_ran
     return shared_problem_put(into, recipe->obstacles, recipe->n_obstacles, recipe->options);
 }
 
+dem_status dem_private_slab_refuse(const char *message)
+{
+    return status_fail(DEM_ERROR_IO, "%s", message);
+}
+
 static dem_status make(dem_slab *out, const slab_maker *maker, const dem_checkpoint *entries, const ranks *r)
 {
     size_t size, size_of_first;

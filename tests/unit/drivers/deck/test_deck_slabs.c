@@ -406,6 +406,22 @@ TEST(slabs_have_the_facts_and_the_nodes_of_the_whole)
     assert_true(n_gaps > 0);
 }
 
+/* As when slabs are made again, and the image has gone meanwhile: not as where a rank would have no rows. */
+TEST(an_image_that_is_gone_is_an_error_of_its_own)
+{
+    const char *path = scratch.files[0]; /* "a.pgm", which is there since the test before */
+    CLEANUP(deck_free)
+    deck d = read_in(2, RUN "&body shape = 'mask', file = 'a.pgm', scale = 4e-3, spacing = 5e-3, invert = .true. /\n");
+    size_t size;
+    CLEANUP(free_memory) void *recipe = deck_slabs_recipe(&size, &d.slabs, d.echo);
+    CLEANUP(dem_slab_free) dem_slab slab = dem_slab_empty();
+    assert_true(d.slabs.are_made);
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(deck_slabs_make(NULL, recipe, size, &(slab_share){0, 2, NULL}, &slab), DEM_ERROR_IO);
+    assert_non_null(strstr(dem_status_message(), "a.pgm"));
+    put_image(path);
+}
+
 TEST(what_asks_for_more_is_built_as_a_whole)
 {
     static const char *const others[] = {
