@@ -4,9 +4,9 @@
  *  itself has no MPI.
  *
  *  Each rank has a model and a simulation of its part: its own nodes; those near what may touch obstacles, or break, on
- *  surfaces of bodies that may touch each other, and of rigid bodies, whoever owns them; and as ghosts
- *  those of other ranks that a spring or a triangle joins to one of these, in large parts further rings of them
- *  (dem_model_part()). What goes on is *collective*: all ranks make the same calls in the same order, with the same
+ *  surfaces of bodies that may touch each other, and of rigid bodies, whoever owns them; and as ghosts those of other
+ *  ranks that a spring or a triangle joins to one of these, in large parts further rings of them (dem_model_part()).
+ *  What goes on is *collective*: all ranks make the same calls in the same order, with the same
  *  arguments, and wait for each other in them. These are
  *
  *      dem_model_create_mpi(), dem_model_create_mpi_for(), dem_model_create_mpi_slab(); dem_model_omega() and

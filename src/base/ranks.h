@@ -49,4 +49,10 @@ enum { RANKS_PACKET_MOST = 8192 };
 /** Of a process alone. */
 extern const ranks ranks_alone;
 
+/** What `busy` says, s; 0: nobody knows. */
+static inline double ranks_busy(const ranks *r)
+{
+    return r->busy != NULL ? r->busy(r->self) : 0.0;
+}
+
 #endif

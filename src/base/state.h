@@ -183,4 +183,10 @@ static inline void state_copy_quadratures(double *to, const state_layout *l, con
     }
 }
 
+/** That of a state of no nodes with the same quadratures. */
+static inline state_layout state_layout_without_nodes(const state_layout *of)
+{
+    return state_layout_of(of->dim, 0, of->n_obstacles, state_has_total(of, STATE_OBSTACLE));
+}
+
 #endif

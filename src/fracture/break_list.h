@@ -11,8 +11,8 @@
 typedef struct break_list {
     dem_index n, capacity;
     dem_break *list;   /* [n] */
-    dem_index *split;  /* [n] the fragment that each has split off, by the number of the whole: -1: none;
-                            break_list_find_split() */
+    dem_index *split;  /* [n] the fragment that each has split off, by the numbers of the whole; -1: none
+                          (break_list_find_split()) */
     dem_index *parent; /* [n_nodes] its room, fragments_begin(); NULL: nothing has been noted yet */
     dem_index *lowest; /* [n_nodes] likewise */
     dem_index split_capacity;

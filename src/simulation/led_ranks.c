@@ -3,11 +3,6 @@
 
 #include "base/status.h"
 
-static double busy_time(const led_run *l)
-{
-    return l->ranks.busy != NULL ? l->ranks.busy(l->ranks.self) : 0.0;
-}
-
 dem_status led_ranks_check(const led_run *l)
 {
     CHECK(l->part != NULL, DEM_ERROR_ARGUMENT, "the run has ended, as its nodes could not be shared out anew");
@@ -17,12 +12,12 @@ dem_status led_ranks_check(const led_run *l)
 void led_ranks_enter(led_run *l)
 {
     status_watch_memory(l->ranks.lacks_memory, l->ranks.program);
-    l->entered = busy_time(l);
+    l->entered = ranks_busy(&l->ranks);
 }
 
 void led_ranks_leave(led_run *l)
 {
-    const double now = busy_time(l);
+    const double now = ranks_busy(&l->ranks);
     l->busy += now - l->entered;
     l->entered = now;
     status_watch_memory(NULL, NULL);
@@ -31,7 +26,7 @@ void led_ranks_leave(led_run *l)
 bool led_ranks_collect_busy(led_run *l)
 {
     if (l->ranks.busy == NULL) return false;
-    balance_collect(&l->balance, &l->ranks, l->busy + busy_time(l) - l->entered);
+    balance_collect(&l->balance, &l->ranks, l->busy + ranks_busy(&l->ranks) - l->entered);
     return true;
 }
 

@@ -304,7 +304,7 @@ dem_status rank_order_give(const dem_simulation *simulation, const rank_order *o
     return status;
 }
 
-/* ---- beginning, and going on ---- */
+/* ---- parts that begin, from the start or from a checkpoint ---- */
 
 static dem_status begin_parts(led_run *l, dem_checkpoint *entries, const dem_checkpoint *checkpoint)
 {
@@ -507,11 +507,6 @@ static dem_status ask_array(const dem_model *whole, int array, rows_taker *take,
     return whole_of_parts_visit(whole->part, array, take, context);
 }
 
-static double busy_time(const ranks *r)
-{
-    return r->busy != NULL ? r->busy(r->self) : 0.0;
-}
-
 /* For slabs that are made again. */
 static dem_status keep_recipe(dem_model *whole, const ranks *r, const slab_maker *maker, const slab_recipe *recipe)
 {
@@ -528,7 +523,7 @@ static dem_status keep_recipe(dem_model *whole, const ranks *r, const slab_maker
 dem_status dem_private_lead_slabs(dem_model **out, const ranks *r, const slab_maker *maker, const slab_recipe *recipe)
 {
     dem_model *part = NULL, *whole = NULL;
-    const double begun = busy_time(r);
+    const double begun = ranks_busy(r);
     (void)rank_call_send(r, (rank_call){.kind = RANK_CALL_SLABS});
     TRY(shared_slabs_create(&part, r, maker, recipe));
     dem_index hash;
@@ -538,7 +533,7 @@ dem_status dem_private_lead_slabs(dem_model **out, const ranks *r, const slab_ma
         dem_model_destroy(part);
         return status;
     }
-    whole->slabs.price = busy_time(r) - begun;
+    whole->slabs.price = ranks_busy(r) - begun;
     whole->slabs.hash = hash;
     status = keep_recipe(whole, r, maker, recipe);
     if (status == DEM_OK)

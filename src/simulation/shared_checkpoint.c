@@ -61,11 +61,6 @@ static bool is_for_all(const char *name)
     return strcmp(name, entry) != 0 && strchr(name, '.') == NULL;
 }
 
-static state_layout without_nodes(const state_layout *of)
-{
-    return state_layout_of(of->dim, 0, of->n_obstacles, state_has_total(of, STATE_OBSTACLE));
-}
-
 /* The quadratures of the whole's state, which may be in a file, as a state of no nodes.
  * \param number  0: those of positions, 1: of velocities */
 static dem_status read_quadratures(const state_layout *of, const dem_checkpoint *whole, const state_layout *none,
@@ -80,7 +75,7 @@ static dem_status read_quadratures(const state_layout *of, const dem_checkpoint 
 /* On rank 0 what all ranks get: entries, and the quadratures, unless they have them. */
 static dem_status choose(const state_layout *of, const dem_checkpoint *whole, bool has_state, dem_checkpoint *part)
 {
-    const state_layout none = without_nodes(of);
+    const state_layout none = state_layout_without_nodes(of);
     double *y;
     TRY(checkpoint_entries_check(whole, entry, (size_t)state_size(of) * sizeof *y));
     TRY(checkpoint_entries_choose(part, whole, is_for_all));
@@ -95,7 +90,7 @@ static dem_status spread_state(const dem_simulation *s, const dem_checkpoint *wh
                                double *y)
 {
     const ranks *r = s->model->ranks;
-    const state_layout *of = &s->shared.whole, none = without_nodes(of);
+    const state_layout *of = &s->shared.whole, none = state_layout_without_nodes(of);
     const gather_items nodes = gather_nodes(s->model->domain);
     const size_t row = (size_t)of->dim * sizeof(double);
     size_t size;

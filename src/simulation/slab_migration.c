@@ -11,7 +11,7 @@ static dem_status begin_state(slab_migration *out, const dem_simulation *part, c
     const state_layout *of = &part->layout;
     const gather_items nodes = gather_nodes(part->model->domain);
     const size_t row = (size_t)of->dim * sizeof *y;
-    out->layout = state_layout_of(of->dim, 0, of->n_obstacles, state_has_total(of, STATE_OBSTACLE));
+    out->layout = state_layout_without_nodes(of);
     out->quadratures = calloc((size_t)state_size(&out->layout), sizeof *out->quadratures);
     CHECK_MEMORY(out->quadratures);
     state_copy_quadratures(out->quadratures, &out->layout, y, of);
